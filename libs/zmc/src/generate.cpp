@@ -21,7 +21,7 @@ class Generator final : public CentroidSink {
         magnitude_(view, isovalue, options.border == Border::capped),
         options_(options),
         surface_(surface),
-        tables_(cells, options.triangulation, geometry_.mirrored()) {}
+        tables_(triangle_tables(options.triangulation, geometry_.mirrored())) {}
 
   /// Triangles and centroids of layers [first, last).
   void layers(std::int64_t first, std::int64_t last) const {
@@ -129,7 +129,7 @@ class Generator final : public CentroidSink {
   AnyMagnitudeReader magnitude_;
   const Options& options_;
   Surface<Real, Index>& surface_;
-  TriangleTables tables_;
+  const TriangleTables& tables_;
 };
 
 }  // namespace
