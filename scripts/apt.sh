@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by scripts that use apt.
 
 if ! command -v apt-get >/dev/null; then

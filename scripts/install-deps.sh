@@ -2,6 +2,7 @@
 # Installs the Debian packages that Shape3D is built, tested and demonstrated with; those that are
 # there already are left alone. Asks for root rights by sudo only when something is missing.
 set -euo pipefail
+# shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/apt.sh"
 
 packages=(

@@ -6,6 +6,7 @@
 # Some container images leave /usr/share/doc out of installed packages. Then the package is
 # downloaded and unpacked to $XDG_CACHE_HOME/shape3d (~/.cache/shape3d), once.
 set -euo pipefail
+# shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/apt.sh"
 
 inside=usr/share/doc/invesalius-examples/examples/Cranium.inv3
