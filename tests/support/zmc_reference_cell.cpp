@@ -117,7 +117,8 @@ class Solver {
   }
 
   /// Is the product of the positive corners the larger?
-  bool positive_prevails(const Corners& positive, const Corners& negative, bool case_13 = false) const {
+  bool positive_prevails(const Corners& positive, const Corners& negative,
+                         bool case_13 = false) const {
     const Exact p = product(positive), n = product(negative);
     if (p != n) return p > n;
     const Corner first_positive = *std::min_element(positive.begin(), positive.end());
@@ -128,8 +129,8 @@ class Solver {
       case Ties::positive:
         return true;
       case Ties::signless_13:
-        // f00 is the first corner. Positive f00: a tie is not "greater", so separated; negative f00:
-        // the negative product is not greater, so positive connected.
+        // f00 is the first corner. Positive f00: a tie is not "greater", so separated; negative
+        // f00: the negative product is not greater, so positive connected.
         return !case_13 || first_negative < first_positive;
       case Ties::separated_13:
         return !case_13;

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-/// Zero-crossing Marching Cubes of one cell, straight from the face rules: slow, without tables, and
-/// independent of the library that it is there to check.
+/// Zero-crossing Marching Cubes of one cell, straight from the face rules: slow, without tables,
+/// and independent of the library that it is there to check.
 namespace shape3d::test::reference {
 
 /// Cell vertex x + 2 y + 4 z; ascending numbers are the (z, y, x) order of the lattice.
@@ -21,8 +21,8 @@ enum class Ties {
   separated_13  ///< As positive, but on a face of case 13 the negative side.
 };
 
-/// Surface vertex of a cell, 8 a + b: the crossing between the corners a < b, or with a = b that corner
-/// itself, which is zero.
+/// Surface vertex of a cell, 8 a + b: the crossing between the corners a < b, or with a = b that
+/// corner itself, which is zero.
 using LocalVertex = int;
 [[nodiscard]] constexpr LocalVertex crossing(Corner a, Corner b) {
   return a < b ? 8 * a + b : 8 * b + a;
@@ -42,8 +42,8 @@ enum class Prevails { not_asked, negative, positive };
 
 struct CellSolution {
   std::array<int, 6> face_case{};  ///< 1 ... 13, Fig. 2.6.
-  /// Sign of the region of the cell at a zero face; -1 for beta and +1 for gamma on a face of case 11;
-  /// 0 for the other cases and for the cell of eight zeros.
+  /// Sign of the region of the cell at a zero face; -1 for beta and +1 for gamma on a face of case
+  /// 11; 0 for the other cases and for the cell of eight zeros.
   std::array<int, 6> region_sign{};
   std::array<Prevails, 6> prevails{};  ///< Outcome of the comparison of products on a face.
   std::vector<LocalEdge> edges;
