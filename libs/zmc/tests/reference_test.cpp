@@ -193,8 +193,7 @@ TEST_CASE("the reference surface of every random volume is closed and neutral",
   }
 }
 
-TEST_CASE("the surface ends at masked cells, and the parity check sees it",
-          "[zmc][reference]") {
+TEST_CASE("the surface ends at masked cells, and the parity check sees it", "[zmc][reference]") {
   const std::array<std::int64_t, 3> dims{9, 9, 9};
   const reference::Volume whole = volume_of(dims, random_samples(dims, 1, 60, 3));
   reference::Volume holed = whole;
