@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 
 namespace shape3d::test::reference {
 namespace {
@@ -165,8 +166,10 @@ class Extractor {
       if (below_sign == above_sign) {
         const bool both_zero = low.kind == CellKind::all_zero && high.kind == CellKind::all_zero;
         if (!options_.mating || !quad || both_zero) return;
+        if (below_sign == 0) throw std::logic_error("a solved cell without a sign at a zero face");
       }
-      if (below_sign > above_sign) std::reverse(polygon.begin(), polygon.end());
+      const bool along_axis = below_sign != above_sign ? below_sign < 0 : below_sign > 0;
+      if (!along_axis) std::reverse(polygon.begin(), polygon.end());
       (quad ? result_.surface.zero_faces : result_.surface.closing).push_back(global(at, polygon));
     });
   }

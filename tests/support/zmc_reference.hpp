@@ -74,7 +74,7 @@ struct Census {
 struct Options {
   Ties ties = Ties::neutral;
   /// Keep the faces of case 12 between cells of one sign too, other than between two cells of eight
-  /// zeros. Such a face is turned to where the orientation rule of `Equal` says.
+  /// zeros.
   bool mating = false;
 };
 
@@ -93,7 +93,8 @@ struct Result {
 /// cell. A face with one cell (border, mask) is not inserted.
 ///
 /// Mating: also where the signs are equal, except between two all-zero cells. The normal then
-/// points along +axis.
+/// points along +axis between positive cells and along -axis between negative ones, so that
+/// negation turns these faces over as it does all others.
 ///
 /// Closing triangles: in a case-11 face of which one cell chose beta and the other gamma; the
 /// normal points from the beta cell to the gamma cell.
