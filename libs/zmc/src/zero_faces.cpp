@@ -40,6 +40,23 @@ bool all_zero(const SignLattice& lattice, std::int64_t i, std::int64_t j, std::i
 
 }  // namespace
 
+std::optional<InsertedFace> inserted_face(const LatticeCells& cells, const ZeroRegions& regions,
+                                          ZeroFaces rule, std::int64_t i, std::int64_t j,
+                                          std::int64_t k, int axis, bool closing) {
+  const SignLattice& lattice = cells.lattice();
+  const std::int64_t li = i - (axis == 0), lj = j - (axis == 1), lk = k - (axis == 2);
+  if (!lattice.cell_valid(i, j, k) || !lattice.cell_valid(li, lj, lk)) return std::nullopt;
+  const int upper = face_sign(cells, regions, i, j, k, lower_face(axis));
+  const int lower = face_sign(cells, regions, li, lj, lk, lower_face(axis) + 1);
+  InsertedFace face{i, static_cast<std::int32_t>(j), static_cast<std::int8_t>(axis), closing,
+                    upper > lower};
+  if (upper * lower < 0) return face;
+  if (rule == ZeroFaces::boundary || closing) return std::nullopt;
+  if (all_zero(lattice, i, j, k) && all_zero(lattice, li, lj, lk)) return std::nullopt;
+  face.towards_upper = upper + lower >= 0;
+  return face;
+}
+
 void find_inserted_faces(const LatticeCells& cells, const ZeroRegions& regions, ZeroFaces rule,
                          std::int64_t k, std::vector<InsertedFace>& quads,
                          std::vector<InsertedFace>& closing) {
@@ -47,20 +64,8 @@ void find_inserted_faces(const LatticeCells& cells, const ZeroRegions& regions, 
   if (k + 1 >= lattice.nz) return;
 
   const auto examine = [&](std::int64_t i, std::int64_t j, int axis, bool mixed) {
-    const std::int64_t li = i - (axis == 0 ? 1 : 0), lj = j - (axis == 1 ? 1 : 0),
-                       lk = k - (axis == 2 ? 1 : 0);
-    if (!lattice.cell_valid(i, j, k) || !lattice.cell_valid(li, lj, lk)) return;
-    const int upper = face_sign(cells, regions, i, j, k, lower_face(axis));
-    const int lower = face_sign(cells, regions, li, lj, lk, lower_face(axis) + 1);
-    InsertedFace face{i, static_cast<std::int32_t>(j), static_cast<std::int8_t>(axis), mixed,
-                      upper > lower};
-    if (upper * lower >= 0) {
-      const bool kept = rule == ZeroFaces::mating && !mixed &&
-                        !(all_zero(lattice, i, j, k) && all_zero(lattice, li, lj, lk));
-      if (!kept) return;
-      face.towards_upper = upper + lower >= 0;
-    }
-    (mixed ? closing : quads).push_back(face);
+    const auto face = inserted_face(cells, regions, rule, i, j, k, axis, mixed);
+    if (face) (mixed ? closing : quads).push_back(*face);
   };
 
   for (std::int64_t j = 0; j + 1 < lattice.ny; ++j) {

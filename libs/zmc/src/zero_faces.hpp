@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "shape3d/zmc/options.hpp"
@@ -21,10 +22,16 @@ struct InsertedFace {
 /// Lower face of a cell along an axis in the numbering of kCellFaces.
 constexpr int lower_face(int axis) { return 2 * axis; }
 
-/// Appends the zero faces and closing triangles at the lower faces of the cells of layer k: those
-/// whose two cells see different signs and, with ZeroFaces::mating, every zero face beside a cell
-/// that is not all zero. Quads and closing triangles go to their own lists; both are ordered by j,
-/// i, axis.
+/// Whether the lower face of cell (i, j, k) along an axis becomes part of the surface: its two
+/// cells see different signs or, with ZeroFaces::mating, it is a zero face beside a cell that is
+/// not all zero.
+/// @param closing  The face is of case 11; otherwise it is of case 12.
+std::optional<InsertedFace> inserted_face(const LatticeCells& cells, const ZeroRegions& regions,
+                                          ZeroFaces rule, std::int64_t i, std::int64_t j,
+                                          std::int64_t k, int axis, bool closing);
+
+/// Appends the inserted lower faces of the cells of layer k. Quads and closing triangles go to
+/// their own lists; both are ordered by j, i, axis.
 void find_inserted_faces(const LatticeCells& cells, const ZeroRegions& regions, ZeroFaces rule,
                          std::int64_t k, std::vector<InsertedFace>& quads,
                          std::vector<InsertedFace>& closing);
