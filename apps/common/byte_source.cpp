@@ -14,7 +14,7 @@
 
 namespace shape3d::apps {
 
-std::uint64_t file_size(const std::filesystem::path& path) {
+std::uint64_t readable_size(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) {
@@ -39,7 +39,7 @@ std::uint64_t file_size(const std::filesystem::path& path) {
 }
 
 FileSource::FileSource(const std::filesystem::path& path, std::uint64_t offset) : path_(path) {
-  const std::uint64_t size = file_size(path);
+  const std::uint64_t size = readable_size(path);
   file_.open(path, std::ios::binary);
   file_.seekg(static_cast<std::streamoff>(std::min(offset, size)));
   if (!file_) throw FileError(path, "cannot be opened");
@@ -86,8 +86,7 @@ struct InflateSource::State {
   }
 };
 
-InflateSource::InflateSource(std::unique_ptr<ByteSource> source,
-                             const std::filesystem::path& path)
+InflateSource::InflateSource(std::unique_ptr<ByteSource> source, const std::filesystem::path& path)
     : state_(std::make_unique<State>()) {
   state_->source = std::move(source);
   state_->path = path;
@@ -127,7 +126,7 @@ std::size_t InflateSource::read(void* out, std::size_t count) {
 
 std::string read_head(const std::filesystem::path& path, std::size_t count) {
   FileSource source(path);
-  std::string bytes(static_cast<std::size_t>(std::min<std::uint64_t>(count, file_size(path))),
+  std::string bytes(static_cast<std::size_t>(std::min<std::uint64_t>(count, readable_size(path))),
                     '\0');
   bytes.resize(source.read(bytes.data(), bytes.size()));
   return bytes;

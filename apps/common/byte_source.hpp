@@ -23,14 +23,15 @@ class ByteSource {
 };
 
 /// Size of a regular file that can be read.
-/// @throws FileError  it does not exist, is a directory, a device or a pipe, or cannot be opened (with the
+/// @throws FileError  it does not exist, is a directory, a device or a pipe, or cannot be opened
+/// (with the
 ///         system's reason).
-[[nodiscard]] std::uint64_t file_size(const std::filesystem::path& path);
+[[nodiscard]] std::uint64_t readable_size(const std::filesystem::path& path);
 
 /// A regular file from a byte offset on.
 class FileSource final : public ByteSource {
  public:
-  /// @throws FileError  as file_size().
+  /// @throws FileError  as readable_size().
   explicit FileSource(const std::filesystem::path& path, std::uint64_t offset = 0);
   /// @throws FileError  the system reports an error.
   std::size_t read(void* out, std::size_t count) override;
@@ -50,8 +51,8 @@ class MemorySource final : public ByteSource {
   std::string_view rest_;
 };
 
-/// What a gzip or zlib stream holds (which of them is seen from its first bytes). Gzip members one after
-/// another are one stream; bytes after the last member are ignored, as gzip does.
+/// What a gzip or zlib stream holds (which of them is seen from its first bytes). Gzip members one
+/// after another are one stream; bytes after the last member are ignored, as gzip does.
 class InflateSource final : public ByteSource {
  public:
   /// @param path  names the file in messages.
@@ -70,7 +71,7 @@ class InflateSource final : public ByteSource {
 };
 
 /// The first `count` bytes of a file, or all of it when it is shorter.
-/// @throws FileError  as file_size().
+/// @throws FileError  as readable_size().
 [[nodiscard]] std::string read_head(const std::filesystem::path& path, std::size_t count);
 
 /// True when the bytes begin like a gzip stream.

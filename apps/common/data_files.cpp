@@ -26,7 +26,8 @@ std::vector<std::string> numbered_names(std::string_view pattern, std::int64_t f
                                         std::int64_t last, std::int64_t step,
                                         const std::filesystem::path& path) {
   const auto bad = [&] {
-    return FileError(path, "data file pattern " + quoted(pattern) + "; expected one %d, %3d or %03d");
+    return FileError(path,
+                     "data file pattern " + in_quotes(pattern) + "; expected one %d, %3d or %03d");
   };
   const std::size_t start = pattern.find('%');
   if (start == std::string_view::npos) throw bad();
@@ -45,9 +46,11 @@ std::vector<std::string> numbered_names(std::string_view pattern, std::int64_t f
                               std::to_string(last) + " by " + std::to_string(step));
   }
   // Unsigned differences do not overflow.
-  const std::uint64_t span = step > 0 ? static_cast<std::uint64_t>(last) - static_cast<std::uint64_t>(first)
-                                      : static_cast<std::uint64_t>(first) - static_cast<std::uint64_t>(last);
-  const std::uint64_t stride = step > 0 ? static_cast<std::uint64_t>(step) : 0 - static_cast<std::uint64_t>(step);
+  const std::uint64_t span =
+      step > 0 ? static_cast<std::uint64_t>(last) - static_cast<std::uint64_t>(first)
+               : static_cast<std::uint64_t>(first) - static_cast<std::uint64_t>(last);
+  const std::uint64_t stride =
+      step > 0 ? static_cast<std::uint64_t>(step) : 0 - static_cast<std::uint64_t>(step);
   const std::uint64_t count = span / stride;
   if (count >= kMostDataFiles) check_count(kMostDataFiles + 1, path);
   std::vector<std::string> names;

@@ -53,8 +53,8 @@ bool named_dicom(const std::filesystem::path& path) {
 
 // Position behind the last fragment of compressed pixel data; nothing when the file ends first.
 // Items are (fffe,e000) and a length, the end is (fffe,e0dd).
-std::optional<std::uint64_t> end_of_fragments(const std::filesystem::path& path, std::uint64_t position,
-                                              std::uint64_t size) {
+std::optional<std::uint64_t> end_of_fragments(const std::filesystem::path& path,
+                                              std::uint64_t position, std::uint64_t size) {
   while (position + 8 <= size) {
     FileSource source(path, position);
     unsigned char item[8] = {};
@@ -73,7 +73,8 @@ std::optional<std::uint64_t> end_of_fragments(const std::filesystem::path& path,
 // One file, parsed as far as its pixel data.
 class Parser {
  public:
-  explicit Parser(const std::filesystem::path& path) : path_(path), data_(vtkSmartPointer<vtkDICOMMetaData>::New()) {
+  explicit Parser(const std::filesystem::path& path)
+      : path_(path), data_(vtkSmartPointer<vtkDICOMMetaData>::New()) {
     const VtkMessages messages;
     const auto parser = vtkSmartPointer<vtkDICOMParser>::New();
     parser->SetMetaData(data_);
@@ -122,7 +123,8 @@ class Parser {
  private:
   [[nodiscard]] bool has(const vtkDICOMTag& tag) const { return data_->Get(tag).IsValid(); }
 
-  // `count` numbers of a frame; decimal strings are parsed exactly. Nothing when missing or malformed.
+  // `count` numbers of a frame; decimal strings are parsed exactly. Nothing when missing or
+  // malformed.
   [[nodiscard]] std::optional<std::vector<double>> reals(int frame, const vtkDICOMTag& tag,
                                                          std::size_t count) const {
     const vtkDICOMValue& value = data_->Get(0, frame, tag);
@@ -154,7 +156,8 @@ class Parser {
       return "holds " + std::to_string(components) + " components a voxel; expected one";
     }
     if (photometric != "MONOCHROME1" && photometric != "MONOCHROME2") {
-      return "photometric interpretation is " + quoted(photometric) + "; expected MONOCHROME1 or MONOCHROME2";
+      return "photometric interpretation is " + in_quotes(photometric) +
+             "; expected MONOCHROME1 or MONOCHROME2";
     }
     const std::int64_t bits = integer(kBitsAllocated, 0);
     const bool with_sign = integer(kPixelRepresentation, 0) == 1;
@@ -170,21 +173,23 @@ class Parser {
     const std::int64_t frames = integer(kFrames, 1);
     constexpr std::int64_t kMostFrames = 1000000;
     if (frames < 1 || frames > kMostFrames) {
-      return "has " + std::to_string(frames) + " frames; expected 1 to " + std::to_string(kMostFrames);
+      return "has " + std::to_string(frames) + " frames; expected 1 to " +
+             std::to_string(kMostFrames);
     }
     const std::string length = check_length(file, frames);
     return length.empty() ? read_frames(file, static_cast<int>(frames)) : length;
   }
 
   [[nodiscard]] std::string check_length(const DicomFile& file, std::int64_t frames) const {
-    const std::uint64_t size = file_size(path_);
+    const std::uint64_t size = readable_size(path_);
     if (pixel_length_ == kEncapsulated) {
       if (end_of_fragments(path_, pixel_offset_, size)) return {};
-      return "is cut off: its compressed pixel data have no end in " + std::to_string(size) + " bytes";
+      return "is cut off: its compressed pixel data have no end in " + std::to_string(size) +
+             " bytes";
     }
     // Rows and columns have 16 bits, so that the product fits.
-    const std::uint64_t expected = static_cast<std::uint64_t>(file.rows * file.columns * frames) *
-                                   sample_size(file.type);
+    const std::uint64_t expected =
+        static_cast<std::uint64_t>(file.rows * file.columns * frames) * sample_size(file.type);
     const std::uint64_t found = size - std::min(size, pixel_offset_);
     if (found < expected || pixel_length_ < expected) {
       return "holds " + std::to_string(std::min<std::uint64_t>(found, pixel_length_)) +
@@ -213,7 +218,8 @@ class Parser {
       }
       place.row_spacing = (*spacing)[0];
       place.column_spacing = (*spacing)[1];
-      place.name = path_.filename().string() + (frames > 1 ? " frame " + std::to_string(frame + 1) : "");
+      place.name =
+          path_.filename().string() + (frames > 1 ? " frame " + std::to_string(frame + 1) : "");
       file.frames.push_back(place);
       Scale scale;
       for (const bool is_slope : {true, false}) {
@@ -242,7 +248,8 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& directo
   std::vector<std::filesystem::path> files;
   std::error_code error;
   std::filesystem::directory_iterator entries(directory, error);
-  for (const std::filesystem::directory_iterator end; !error && entries != end; entries.increment(error)) {
+  for (const std::filesystem::directory_iterator end; !error && entries != end;
+       entries.increment(error)) {
     std::error_code unreadable;
     if (entries->is_regular_file(unreadable)) files.push_back(entries->path());
   }
@@ -265,7 +272,8 @@ void add_file(const std::filesystem::path& path, std::map<std::string, DicomSeri
   const Claim claim = dicom_claim(path);
   if (claim == Claim::none) return;
   const bool looks_right = claim == Claim::certain && !vtkDICOMUtilities::IsDICOMFile(path.c_str());
-  if (looks_right) throw FileError(path, "is not DICOM, though its name says so; damaged or cut off?");
+  if (looks_right)
+    throw FileError(path, "is not DICOM, though its name says so; damaged or cut off?");
   const Parser parser(path);
   if (!parser.error().empty()) {
     if (claim == Claim::perhaps) return;
@@ -306,22 +314,24 @@ std::string series_list(const std::vector<DicomSeries>& series) {
     std::size_t slices = 0;
     for (const DicomFile& file : one.files) slices += std::max<std::size_t>(file.frames.size(), 1);
     list += "\n  " + std::to_string(n + 1) + ": " + one.uid + "  " + one.modality;
-    if (!one.description.empty()) list += " " + quoted(one.description);
+    if (!one.description.empty()) list += " " + in_quotes(one.description);
     list += ", " + std::to_string(slices) + (slices == 1 ? " slice" : " slices") + " of " +
-            std::to_string(one.files.front().columns) + " x " + std::to_string(one.files.front().rows);
+            std::to_string(one.files.front().columns) + " x " +
+            std::to_string(one.files.front().rows);
   }
   return list;
 }
 
-const DicomSeries& choose_series(const std::vector<DicomSeries>& series, const std::string& selector,
-                                 const std::filesystem::path& path) {
+const DicomSeries& choose_series(const std::vector<DicomSeries>& series,
+                                 const std::string& selector, const std::filesystem::path& path) {
   if (series.empty()) {
     throw FileError(path, "holds no DICOM images (sub-directories are not searched)");
   }
   if (selector.empty()) {
     if (series.size() == 1) return series.front();
-    throw FileError(path, "holds " + std::to_string(series.size()) +
-                              " DICOM series; choose one with --series UID or number:" + series_list(series));
+    throw FileError(
+        path, "holds " + std::to_string(series.size()) +
+                  " DICOM series; choose one with --series UID or number:" + series_list(series));
   }
   for (const DicomSeries& one : series) {
     if (one.uid == selector) return one;
@@ -330,7 +340,8 @@ const DicomSeries& choose_series(const std::vector<DicomSeries>& series, const s
   if (number && *number >= 1 && static_cast<std::uint64_t>(*number) <= series.size()) {
     return series[static_cast<std::size_t>(*number) - 1];
   }
-  throw FileError(path, "holds no DICOM series " + quoted(selector) + "; expected one of" + series_list(series));
+  throw FileError(path, "holds no DICOM series " + in_quotes(selector) + "; expected one of" +
+                            series_list(series));
 }
 
 }  // namespace shape3d::apps

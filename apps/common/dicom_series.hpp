@@ -28,17 +28,19 @@ struct DicomSeries {
   std::string uid;
   std::string modality;
   std::string description;
-  std::int64_t number = 0;  ///< SeriesNumber, 0 when it is not there.
+  std::int64_t number = 0;       ///< SeriesNumber, 0 when it is not there.
   std::vector<DicomFile> files;  ///< By name.
 };
 
-/// The image series in a directory (sub-directories are not searched), by number, then UID. Files that
-/// are not DICOM and DICOM files without an image (reports, DICOMDIR) are left out.
-/// @throws FileError  the directory cannot be read; a file says that it is DICOM (by its first bytes or the
+/// The image series in a directory (sub-directories are not searched), by number, then UID. Files
+/// that are not DICOM and DICOM files without an image (reports, DICOMDIR) are left out.
+/// @throws FileError  the directory cannot be read; a file says that it is DICOM (by its first
+/// bytes or the
 ///         extensions .dcm and .ima) and cannot be understood or ends before its image.
 [[nodiscard]] std::vector<DicomSeries> scan_dicom(const std::filesystem::path& directory);
 
-/// The series a selector stands for: a UID, a number in the list from 1 on, or empty for the only one.
+/// The series a selector stands for: a UID, a number in the list from 1 on, or empty for the only
+/// one.
 /// @throws FileError  there are none, several and no selector, or none that fits; with the list.
 [[nodiscard]] const DicomSeries& choose_series(const std::vector<DicomSeries>& series,
                                                const std::string& selector,

@@ -68,15 +68,14 @@ std::uint64_t groups_available() {
     const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
     const bool version_2 = controllers == ",,";
     if (!version_2 && controllers.find(",memory,") == std::string::npos) continue;
-    const std::filesystem::path root =
-        version_2 ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
+    const std::filesystem::path root = version_2 ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
     std::filesystem::path group = std::filesystem::path(line.substr(second + 1)).relative_path();
     while (true) {
       least = std::min(
-          least, version_2 ? group_available(root / group, "memory.max", "memory.current",
-                                             "inactive_file")
-                           : group_available(root / group, "memory.limit_in_bytes",
-                                             "memory.usage_in_bytes", "total_inactive_file"));
+          least,
+          version_2 ? group_available(root / group, "memory.max", "memory.current", "inactive_file")
+                    : group_available(root / group, "memory.limit_in_bytes",
+                                      "memory.usage_in_bytes", "total_inactive_file"));
       if (group.empty()) break;
       group = group.parent_path();
     }

@@ -6,7 +6,8 @@
 
 namespace shape3d::apps {
 
-/// Bytes this process can still allocate without swapping: the least of what the kernel calls available
+/// Bytes this process can still allocate without swapping: the least of what the kernel calls
+/// available
 /// (/proc/meminfo), what the control groups of the process leave, and what RLIMIT_AS leaves.
 /// The largest value when none of them is known.
 [[nodiscard]] std::uint64_t available_memory();

@@ -29,7 +29,8 @@ std::string count_text(std::uint64_t bytes) {
 }
 
 // Byte behind `lines` line ends.
-std::uint64_t skip_lines(const std::filesystem::path& path, std::uint64_t offset, std::int64_t lines) {
+std::uint64_t skip_lines(const std::filesystem::path& path, std::uint64_t offset,
+                         std::int64_t lines) {
   FileSource source(path, offset);
   std::array<char, 4096> buffer{};
   std::uint64_t position = offset;
@@ -58,7 +59,7 @@ struct Part {
 Part make_part(const Payload& payload, const std::filesystem::path& path, std::uint64_t bytes) {
   Part part;
   part.path = path;
-  part.size = file_size(path);
+  part.size = readable_size(path);
   part.bytes = bytes;
   if (payload.byte_skip == Payload::kAtEnd) {
     if (part.size < bytes) {
@@ -85,10 +86,11 @@ void check_length(const Part& part, const Payload& payload, StoredType type) {
   switch (payload.encoding) {
     case Encoding::raw:
       if (held == part.bytes) return;
-      throw FileError(part.path, found + "data; expected " + count_text(part.bytes) +
-                                     ", says the header");
+      throw FileError(part.path,
+                      found + "data; expected " + count_text(part.bytes) + ", says the header");
     case Encoding::compressed:
-      if ((part.bytes + static_cast<std::uint64_t>(payload.stream_skip)) / kMostExpansion <= held) return;
+      if ((part.bytes + static_cast<std::uint64_t>(payload.stream_skip)) / kMostExpansion <= held)
+        return;
       throw FileError(part.path, found + "compressed data; they cannot hold the " +
                                      count_text(part.bytes) + " the header says");
     case Encoding::text: {
@@ -182,7 +184,8 @@ bool store_text(std::string_view word, std::byte* out) {
   if constexpr (std::is_floating_point_v<T>) {
     const std::optional<double> value = parse_real(word);
     if (!value) return false;
-    if (std::isfinite(*value) && std::abs(*value) > static_cast<double>(std::numeric_limits<T>::max())) {
+    if (std::isfinite(*value) &&
+        std::abs(*value) > static_cast<double>(std::numeric_limits<T>::max())) {
       return false;
     }
     store(static_cast<T>(*value), out);
@@ -244,14 +247,14 @@ void read_text_samples(ByteSource& source, StoredType type, std::uint64_t count,
                                 std::to_string(count) + ", says the header");
     }
     if (!store_word(word, out + index * size)) {
-      throw FileError(path, "number " + std::to_string(index + 1) + " is " + quoted(word) +
+      throw FileError(path, "number " + std::to_string(index + 1) + " is " + in_quotes(word) +
                                 "; expected " + std::string(to_string(type)));
     }
   }
   const std::string_view more = words.next();
   if (!more.empty()) {
-    throw FileError(path, "goes on with " + quoted(more) + " after the " + std::to_string(count) +
-                              " numbers the header says");
+    throw FileError(path, "goes on with " + in_quotes(more) + " after the " +
+                              std::to_string(count) + " numbers the header says");
   }
 }
 
@@ -303,8 +306,9 @@ Volume make_volume(VolumeHeader header, TypedSamples samples) {
 Volume load_volume(VolumeHeader header, const std::filesystem::path& header_path,
                    std::uint64_t memory_limit) {
   check_header(header, header_path);
-  TypedSamples samples = convert_samples(read_payload(header, header_path, memory_limit), header.type,
-                                         {{header.slope, header.intercept}}, header_path, memory_limit);
+  TypedSamples samples =
+      convert_samples(read_payload(header, header_path, memory_limit), header.type,
+                      {{header.slope, header.intercept}}, header_path, memory_limit);
   return make_volume(std::move(header), std::move(samples));
 }
 

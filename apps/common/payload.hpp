@@ -16,10 +16,11 @@ namespace shape3d::apps {
 ///
 /// @param header_path   resolves header.payload.files and names the file in messages.
 /// @param memory_limit  bytes that may be used; 0: what the machine has.
-/// @throws FileError  a data file is missing or its length is not what the header says (the message has
-///         both numbers), a compressed stream ends early, is damaged or holds more, a text sample is no
-///         number or does not fit the type, more memory than there is. Lengths are checked before memory
-///         is taken, and memory before it is allocated.
+/// @throws FileError  a data file is missing or its length is not what the header says (the message
+/// has
+///         both numbers), a compressed stream ends early, is damaged or holds more, a text sample
+///         is no number or does not fit the type, more memory than there is. Lengths are checked
+///         before memory is taken, and memory before it is allocated.
 [[nodiscard]] std::vector<std::byte> read_payload(const VolumeHeader& header,
                                                   const std::filesystem::path& header_path,
                                                   std::uint64_t memory_limit);

@@ -94,9 +94,7 @@ std::optional<SampleType> direct_type(StoredType type) {
   return std::nullopt;
 }
 
-bool is_real(StoredType type) {
-  return type == StoredType::float32 || type == StoredType::float64;
-}
+bool is_real(StoredType type) { return type == StoredType::float32 || type == StoredType::float64; }
 
 std::size_t size_of(SampleType type) {
   return visit(type, [](auto tag) { return sizeof(typename decltype(tag)::type); });
@@ -153,8 +151,7 @@ Range<double> scaled_range(const std::vector<std::byte>& bytes, StoredType store
       const Range<T> range = range_of<T>(bytes.data(), b * block, block);
       if (range.lower > range.upper) continue;
       for (const T value : {range.lower, range.upper}) {
-        const double scaled =
-            static_cast<double>(value) * scales[b].slope + scales[b].intercept;
+        const double scaled = static_cast<double>(value) * scales[b].slope + scales[b].intercept;
         result.lower = std::min(result.lower, scaled);
         result.upper = std::max(result.upper, scaled);
       }
@@ -190,9 +187,8 @@ SampleType wide_type(const std::vector<std::byte>& bytes, StoredType stored,
       const Range<T> range = range_of<T>(bytes.data(), 0, count);
       constexpr auto kLargest = std::numeric_limits<std::int32_t>::max();
       const bool small = range.upper <= static_cast<T>(kLargest) &&
-                         (std::is_unsigned_v<T> ||
-                          static_cast<std::int64_t>(range.lower) >=
-                              std::numeric_limits<std::int32_t>::min());
+                         (std::is_unsigned_v<T> || static_cast<std::int64_t>(range.lower) >=
+                                                       std::numeric_limits<std::int32_t>::min());
       if (small) return SampleType::int32;
       for (std::size_t index = 0; index < count; ++index) {
         const T value = load<T>(bytes.data(), index);
@@ -200,8 +196,7 @@ SampleType wide_type(const std::vector<std::byte>& bytes, StoredType stored,
         const auto real = static_cast<double>(value);
         const bool in_range = real < std::ldexp(1.0, std::numeric_limits<T>::digits);
         if (!in_range || static_cast<T>(real) != value) {
-          throw FileError(path, std::string(to_string(stored)) + " value " +
-                                    std::to_string(value) +
+          throw FileError(path, std::string(to_string(stored)) + " value " + std::to_string(value) +
                                     " has no exact double; expected values that float64 can hold");
         }
       }
@@ -221,7 +216,8 @@ void convert(const std::byte* in, StoredType stored, std::byte* out, SampleType 
       for (std::size_t b = 0; b < scales.size(); ++b) {
         const Scale scale = scales[b];
         for (std::size_t index = b * block; index < (b + 1) * block; ++index) {
-          const double value = static_cast<double>(load<In>(in, index)) * scale.slope + scale.intercept;
+          const double value =
+              static_cast<double>(load<In>(in, index)) * scale.slope + scale.intercept;
           const Out result = static_cast<Out>(value);
           std::memcpy(out + index * sizeof(Out), &result, sizeof(Out));
         }
@@ -259,8 +255,7 @@ TypedSamples convert_samples(std::vector<std::byte> bytes, StoredType stored,
     return result;
   }
   require_memory(path, count * size_of(result.type), memory_limit,
-                 std::to_string(count) + " samples as " +
-                     std::string(zmc::to_string(result.type)));
+                 std::to_string(count) + " samples as " + std::string(zmc::to_string(result.type)));
   result.bytes.resize(count * size_of(result.type));
   convert(bytes.data(), stored, result.bytes.data(), result.type, scales, count);
   return result;

@@ -30,16 +30,21 @@ struct TypedSamples {
 
 /// Applies scales and brings stored samples to a type that extraction reads.
 ///
-/// The samples are scales.size() equal blocks, one after another, each with its scale. The result has
+/// The samples are scales.size() equal blocks, one after another, each with its scale. The result
+/// has
 ///  - the stored type, when every scale is trivial and it is one of the seven;
-///  - for uint32, int64 and uint64: int32 when the values fit, else float64 when it holds them exactly;
-///  - for integers with integral scales: the stored type if the scaled values fit, else the first of int16,
+///  - for uint32, int64 and uint64: int32 when the values fit, else float64 when it holds them
+///  exactly;
+///  - for integers with integral scales: the stored type if the scaled values fit, else the first
+///  of int16,
 ///    uint16, int32 they fit, else float64;
-///  - otherwise float32 for integers of 8 and 16 bits and for float32 (if no finite value overflows it),
+///  - otherwise float32 for integers of 8 and 16 bits and for float32 (if no finite value overflows
+///  it),
 ///    float64 for the others.
 ///
 /// @param memory_limit  as in require_memory(), for the copy when the sample size changes.
-/// @throws FileError  a slope is 0 or not finite, an intercept is not finite, a 64-bit integer has no exact
+/// @throws FileError  a slope is 0 or not finite, an intercept is not finite, a 64-bit integer has
+/// no exact
 ///         double.
 [[nodiscard]] TypedSamples convert_samples(std::vector<std::byte> bytes, StoredType stored,
                                            const std::vector<Scale>& scales,

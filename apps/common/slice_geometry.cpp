@@ -33,7 +33,8 @@ std::string rounded(double value) {
   return buffer.data();
 }
 
-void check_slice(const SlicePlace& slice, const SlicePlace& first, const std::filesystem::path& path) {
+void check_slice(const SlicePlace& slice, const SlicePlace& first,
+                 const std::filesystem::path& path) {
   if (!slice.position.allFinite() || !slice.row.allFinite() || !slice.column.allFinite()) {
     throw FileError(path, slice.name + ": its position or orientation is not finite");
   }
@@ -45,7 +46,8 @@ void check_slice(const SlicePlace& slice, const SlicePlace& first, const std::fi
   if (std::abs(slice.row.norm() - 1.0) > kAxisRounding ||
       std::abs(slice.column.norm() - 1.0) > kAxisRounding ||
       std::abs(slice.row.dot(slice.column)) > kAxisRounding) {
-    throw FileError(path, slice.name + ": its orientation is not two orthogonal unit vectors (lengths " +
+    throw FileError(path, slice.name +
+                              ": its orientation is not two orthogonal unit vectors (lengths " +
                               rounded(slice.row.norm()) + " and " + rounded(slice.column.norm()) +
                               ", cosine " + rounded(slice.row.dot(slice.column)) + ")");
   }
@@ -58,8 +60,8 @@ void check_slice(const SlicePlace& slice, const SlicePlace& first, const std::fi
       std::abs(slice.row_spacing - first.row_spacing) > scale) {
     throw FileError(path, "slices differ in pixel spacing: " + to_text(first.row_spacing) + " x " +
                               to_text(first.column_spacing) + " in " + first.name + ", " +
-                              to_text(slice.row_spacing) + " x " + to_text(slice.column_spacing) + " in " +
-                              slice.name);
+                              to_text(slice.row_spacing) + " x " + to_text(slice.column_spacing) +
+                              " in " + slice.name);
   }
 }
 
@@ -101,8 +103,8 @@ void check_places(const std::vector<SlicePlace>& slices, const Ordered& ordered,
     throw FileError(path, "holds " + std::to_string(counts.front()) +
                               " frames (4-D), volumes at the same place; expected one");
   }
-  throw FileError(path, "holds several slices at one place: " + slices[ordered.order[first]].name + " and " +
-                            slices[ordered.order[first + 1]].name);
+  throw FileError(path, "holds several slices at one place: " + slices[ordered.order[first]].name +
+                            " and " + slices[ordered.order[first + 1]].name);
 }
 
 // Gaps of a multiple of the typical step are missing slices, others are uneven.
@@ -131,15 +133,15 @@ void check_gaps(const std::vector<SlicePlace>& slices, const Ordered& ordered,
     }
   }
   if (worst < ordered.gaps.size()) {
-    throw FileError(path, "slices are unevenly spaced: " + rounded(ordered.gaps[worst]) + " mm between " +
-                              slices[ordered.order[worst]].name + " and " +
+    throw FileError(path, "slices are unevenly spaced: " + rounded(ordered.gaps[worst]) +
+                              " mm between " + slices[ordered.order[worst]].name + " and " +
                               slices[ordered.order[worst + 1]].name + ", where most are " +
                               rounded(typical) + " mm apart");
   }
   if (missing > 0) {
     throw FileError(path, std::to_string(missing) + (missing == 1 ? " slice is" : " slices are") +
-                              " missing where most are " + rounded(typical) + " mm apart:" + places +
-                              (listed > kListed ? "; and more" : ""));
+                              " missing where most are " + rounded(typical) +
+                              " mm apart:" + places + (listed > kListed ? "; and more" : ""));
   }
 }
 
@@ -147,8 +149,8 @@ void check_gaps(const std::vector<SlicePlace>& slices, const Ordered& ordered,
 
 SliceStack stack_slices(const std::vector<SlicePlace>& slices, const std::filesystem::path& path) {
   if (slices.size() < 2) {
-    throw FileError(path, "holds " + std::to_string(slices.size()) +
-                              " slice; a volume needs at least two");
+    throw FileError(
+        path, "holds " + std::to_string(slices.size()) + " slice; a volume needs at least two");
   }
   const SlicePlace& first = slices.front();
   for (const SlicePlace& slice : slices) check_slice(slice, first, path);
@@ -186,7 +188,8 @@ SliceStack stack_slices(const std::vector<SlicePlace>& slices, const std::filesy
   const std::string off = slices[ordered.order[worst]].name + " is " + rounded(worst_error) +
                           " mm off an even stack of slices " + rounded(length) + " mm apart";
   if (worst_error > kUneven * length) throw FileError(path, "slices are unevenly spaced: " + off);
-  if (worst_error > kNoticeable * length) stack.warnings.push_back("slices are not quite even: " + off);
+  if (worst_error > kNoticeable * length)
+    stack.warnings.push_back("slices are not quite even: " + off);
 
   const double tilt = std::atan2(step.cross(normal).norm(), step.dot(normal)) * kDegrees;
   if (tilt > kTiltDegrees) {

@@ -22,22 +22,25 @@ struct SlicePlace {
 /// The lattice that slices form.
 struct SliceStack {
   std::vector<std::size_t> order;  ///< Slice k of the volume is slices[order[k]].
-  Eigen::Matrix3d steps = Eigen::Matrix3d::Identity();  ///< Columns: from sample to sample along i, j, k.
+  Eigen::Matrix3d steps =
+      Eigen::Matrix3d::Identity();  ///< Columns: from sample to sample along i, j, k.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   std::vector<std::string> warnings;
 };
 
-/// Orders slices along row × column and checks that they form a lattice, equal steps on a line. The step
-/// along k is (last − first position) / (n − 1): where it is not parallel to row × column (tilted gantry)
-/// the lattice is sheared, which is exact, and a warning says by how much.
+/// Orders slices along row × column and checks that they form a lattice, equal steps on a line. The
+/// step along k is (last − first position) / (n − 1): where it is not parallel to row × column
+/// (tilted gantry) the lattice is sheared, which is exact, and a warning says by how much.
 ///
 /// Allowed: orientations and spacings that differ by decimal rounding (1e-4 of a unit, 1e-3 of the
 /// spacing); positions off the lattice by up to 5 % of the step, with a warning from 1 % on.
 ///
-/// @throws FileError  fewer than two slices; slices of different orientation or spacing; an orientation
-///         that is not two orthogonal unit vectors; a spacing that is not finite and positive; several
-///         slices at one place (how many volumes, when it is the same number everywhere); missing slices
-///         (how many, between which); uneven steps. Messages name slices and distances.
+/// @throws FileError  fewer than two slices; slices of different orientation or spacing; an
+/// orientation
+///         that is not two orthogonal unit vectors; a spacing that is not finite and positive;
+///         several slices at one place (how many volumes, when it is the same number everywhere);
+///         missing slices (how many, between which); uneven steps. Messages name slices and
+///         distances.
 [[nodiscard]] SliceStack stack_slices(const std::vector<SlicePlace>& slices,
                                       const std::filesystem::path& path);
 

@@ -87,7 +87,7 @@ std::string bytes_to_text(std::uint64_t bytes) {
   return buffer.data();
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 60;
   std::string result = "\"";
   for (const char c : text.substr(0, kLongest)) {

@@ -18,8 +18,8 @@ namespace shape3d::apps {
 /// The words between spaces, tabs and line ends.
 [[nodiscard]] std::vector<std::string_view> split_words(std::string_view text);
 
-/// The whole text as a number, with or without sign; "nan" and "inf" are reals. Independent of the locale;
-/// nothing when the text is not a number or does not fit the type.
+/// The whole text as a number, with or without sign; "nan" and "inf" are reals. Independent of the
+/// locale; nothing when the text is not a number or does not fit the type.
 [[nodiscard]] std::optional<double> parse_real(std::string_view text);
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view text);
 [[nodiscard]] std::optional<std::uint64_t> parse_unsigned(std::string_view text);
@@ -34,6 +34,6 @@ namespace shape3d::apps {
 [[nodiscard]] std::string bytes_to_text(std::uint64_t bytes);
 
 /// Foreign text inside double quotes, cut after 60 characters, unprintable bytes as '?'.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 }  // namespace shape3d::apps

@@ -28,8 +28,8 @@ struct Volume {
   ~Volume() = default;
 
   std::vector<std::byte> samples;  ///< dims product × sample size bytes; what view.data points to.
-  zmc::VolumeView view;            ///< view.data == samples.data(); dense; direction has unit columns.
-  std::string format;  ///< "NIfTI", "NRRD", "MetaImage", "VTI" or "DICOM series".
+  zmc::VolumeView view;  ///< view.data == samples.data(); dense; direction has unit columns.
+  std::string format;    ///< "NIfTI", "NRRD", "MetaImage", "VTI" or "DICOM series".
   std::vector<std::string> warnings;  ///< Sentences for stderr: gantry tilt, uneven slices …
 };
 

@@ -4,8 +4,8 @@
 #include <set>
 #include <utility>
 
-#include <vtkDataArray.h>
 #include <vtkDICOMReader.h>
+#include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
@@ -13,10 +13,10 @@
 
 #include "dicom_series.hpp"
 #include "error.hpp"
-#include "formats.hpp"
 #include "memory_limit.hpp"
 #include "payload.hpp"
 #include "text.hpp"
+#include "volume_formats.hpp"
 #include "vtk_messages.hpp"
 
 namespace shape3d::apps {
@@ -31,7 +31,7 @@ struct Selection {
 Selection select(const std::filesystem::path& path, const std::string& selector) {
   std::error_code error;
   const bool directory = std::filesystem::is_directory(path, error);
-  if (!directory) static_cast<void>(file_size(path));
+  if (!directory) static_cast<void>(readable_size(path));
   std::filesystem::path folder = directory ? path : path.parent_path();
   if (folder.empty()) folder = ".";
   const std::vector<DicomSeries> all = scan_dicom(folder);
@@ -58,7 +58,8 @@ void drop_copies(std::vector<DicomFile>& files, std::vector<std::string>& warnin
   });
   const auto count = std::distance(copies, files.end());
   if (count == 0) return;
-  warnings.push_back(std::to_string(count) + (count == 1 ? " file is a copy" : " files are copies") +
+  warnings.push_back(std::to_string(count) +
+                     (count == 1 ? " file is a copy" : " files are copies") +
                      " of other files of the series and left out");
   files.erase(copies, files.end());
 }
@@ -68,11 +69,12 @@ void check_files(const std::vector<DicomFile>& files) {
   for (const DicomFile& file : files) {
     if (!file.problem.empty()) throw FileError(file.path, file.problem);
     if (file.rows != first.rows || file.columns != first.columns || file.type != first.type) {
-      throw FileError(file.path, "is " + std::to_string(file.columns) + " x " + std::to_string(file.rows) +
-                                     " " + std::string(to_string(file.type)) + "; " +
-                                     first.path.filename().string() + " of the same series is " +
-                                     std::to_string(first.columns) + " x " + std::to_string(first.rows) +
-                                     " " + std::string(to_string(first.type)));
+      throw FileError(file.path,
+                      "is " + std::to_string(file.columns) + " x " + std::to_string(file.rows) +
+                          " " + std::string(to_string(file.type)) + "; " +
+                          first.path.filename().string() + " of the same series is " +
+                          std::to_string(first.columns) + " x " + std::to_string(first.rows) + " " +
+                          std::string(to_string(first.type)));
     }
   }
 }
@@ -97,13 +99,15 @@ vtkSmartPointer<vtkImageData> read_with_vtk(const std::vector<DicomFile>& files,
   const std::string error =
       messages.first_error().empty() ? messages.first_warning() : messages.first_error();
   if (!error.empty()) throw FileError(path, "cannot be read: " + error);
-  if (reader->GetErrorCode() != 0) throw FileError(path, "cannot be read: its pixel data are damaged");
+  if (reader->GetErrorCode() != 0)
+    throw FileError(path, "cannot be read: its pixel data are damaged");
   return reader->GetOutput();
 }
 
 }  // namespace
 
-Volume read_dicom(const std::filesystem::path& path, const std::string& series, std::uint64_t memory_limit) {
+Volume read_dicom(const std::filesystem::path& path, const std::string& series,
+                  std::uint64_t memory_limit) {
   Selection selection = select(path, series);
   VolumeHeader header;
   header.format = "DICOM series";
@@ -125,15 +129,18 @@ Volume read_dicom(const std::filesystem::path& path, const std::string& series, 
   header.warnings.insert(header.warnings.end(), stack.warnings.begin(), stack.warnings.end());
 
   const std::uint64_t bytes = payload_bytes(header);
-  require_memory(path, 2 * bytes, memory_limit, "reading " + samples_text(header.dims, header.type));
+  require_memory(path, 2 * bytes, memory_limit,
+                 "reading " + samples_text(header.dims, header.type));
   vtkSmartPointer<vtkImageData> image = read_with_vtk(selection.files, path);
   vtkDataArray* array = image->GetPointData()->GetScalars();
-  const std::uint64_t found = array == nullptr ? 0
-                                               : static_cast<std::uint64_t>(array->GetNumberOfValues()) *
-                                                     static_cast<std::uint64_t>(array->GetDataTypeSize());
+  const std::uint64_t found = array == nullptr
+                                  ? 0
+                                  : static_cast<std::uint64_t>(array->GetNumberOfValues()) *
+                                        static_cast<std::uint64_t>(array->GetDataTypeSize());
   if (found != bytes) {
     throw FileError(path, "gave " + std::to_string(found) + " bytes of pixels; expected " +
-                              std::to_string(bytes) + " for " + samples_text(header.dims, header.type));
+                              std::to_string(bytes) + " for " +
+                              samples_text(header.dims, header.type));
   }
   std::vector<std::byte> data(bytes);
   const std::size_t slice = bytes / places.size();
@@ -144,7 +151,8 @@ Volume read_dicom(const std::filesystem::path& path, const std::string& series, 
     ordered_scales.push_back(scales[stack.order[k]]);
   }
   image = nullptr;
-  TypedSamples samples = convert_samples(std::move(data), header.type, ordered_scales, path, memory_limit);
+  TypedSamples samples =
+      convert_samples(std::move(data), header.type, ordered_scales, path, memory_limit);
   return make_volume(std::move(header), std::move(samples));
 }
 

@@ -30,7 +30,8 @@ void check_axes(const Eigen::Matrix3d& direction, const std::filesystem::path& p
 }
 
 void check_origin(const Eigen::Vector3d& origin, const std::filesystem::path& path) {
-  if (!origin.allFinite()) throw FileError(path, "origin " + vector_text(origin) + " is not finite");
+  if (!origin.allFinite())
+    throw FileError(path, "origin " + vector_text(origin) + " is not finite");
 }
 
 }  // namespace
@@ -89,8 +90,9 @@ void set_affine(VolumeHeader& header, const Eigen::Matrix3d& columns, const Eige
     const Eigen::Vector3d step = columns.col(axis);
     const double length = step.stableNorm();
     if (!std::isfinite(length) || !(length > 0.0)) {
-      throw FileError(path, std::string("the step from sample to sample along ") + kAxes[axis] + " is " +
-                                vector_text(step) + "; expected a finite vector that is not zero");
+      throw FileError(path, std::string("the step from sample to sample along ") + kAxes[axis] +
+                                " is " + vector_text(step) +
+                                "; expected a finite vector that is not zero");
     }
     header.spacing[axis] = std::abs(length - 1.0) <= kUnit ? 1.0 : length;
     header.direction.col(axis) = step / header.spacing[axis];
@@ -114,7 +116,8 @@ void check_header(const VolumeHeader& header, const std::filesystem::path& path)
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (dims[axis] == 1) {
-      throw FileError(path, "dimensions " + to_text(dims) + ": one sample thick along " + kAxes[axis] +
+      throw FileError(path, "dimensions " + to_text(dims) + ": one sample thick along " +
+                                kAxes[axis] +
                                 "; a volume needs at least two samples along each axis");
     }
   }

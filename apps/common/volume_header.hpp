@@ -45,12 +45,13 @@ struct Payload {
 
   Encoding encoding = Encoding::raw;
   bool big_endian = false;         ///< Of raw and compressed samples wider than a byte.
-  std::vector<std::string> files;  ///< Relative to the header's folder, in order, equal shares; empty: the
-                                   ///< header's own file.
+  std::vector<std::string> files;  ///< Relative to the header's folder, in order, equal shares;
+                                   ///< empty: the header's own file.
   bool pair = false;               ///< The samples are in the .img file beside the header.
   std::int64_t line_skip = 0;      ///< Lines of each file before the data.
-  std::int64_t byte_skip = 0;      ///< Bytes after those before the data; kAtEnd: raw data are the file's end.
-  std::int64_t stream_skip = 0;    ///< Decompressed bytes before the data.
+  std::int64_t byte_skip =
+      0;  ///< Bytes after those before the data; kAtEnd: raw data are the file's end.
+  std::int64_t stream_skip = 0;  ///< Decompressed bytes before the data.
 };
 
 /// What the header of a volume file says, as LPS and millimetres. Sample (i, j, k) lies at
@@ -68,16 +69,19 @@ struct VolumeHeader {
   std::vector<std::string> warnings;
 };
 
-/// Splits an affine into spacing (lengths of the columns) and direction (columns of unit length, not
-/// necessarily orthogonal: shear stays). `columns` are the steps from sample to sample along i, j and k.
-/// Unit columns are kept as they are, so that spacing (1, 1, 1) and clean matrices pass exactly.
-/// @throws FileError  a step is not finite or zero; the three steps lie in a plane; the origin is not finite.
-void set_affine(VolumeHeader& header, const Eigen::Matrix3d& columns,
-                const Eigen::Vector3d& origin, const std::filesystem::path& path);
+/// Splits an affine into spacing (lengths of the columns) and direction (columns of unit length,
+/// not necessarily orthogonal: shear stays). `columns` are the steps from sample to sample along i,
+/// j and k. Unit columns are kept as they are, so that spacing (1, 1, 1) and clean matrices pass
+/// exactly.
+/// @throws FileError  a step is not finite or zero; the three steps lie in a plane; the origin is
+/// not finite.
+void set_affine(VolumeHeader& header, const Eigen::Matrix3d& columns, const Eigen::Vector3d& origin,
+                const std::filesystem::path& path);
 
-/// @throws FileError  a dimension is below 1 ("zero or negative") or exactly 1 (a volume one sample thick), the
-///         number of bytes does not fit 63 bits, a spacing is not finite and positive, the origin or
-///         direction is not finite, the direction is singular, slope or intercept is not finite.
+/// @throws FileError  a dimension is below 1 ("zero or negative") or exactly 1 (a volume one sample
+/// thick), the
+///         number of bytes does not fit 63 bits, a spacing is not finite and positive, the origin
+///         or direction is not finite, the direction is singular, slope or intercept is not finite.
 void check_header(const VolumeHeader& header, const std::filesystem::path& path);
 
 /// dims product × sample size; header checked.
@@ -87,15 +91,15 @@ void check_header(const VolumeHeader& header, const std::filesystem::path& path)
 [[nodiscard]] std::string samples_text(const std::array<std::int64_t, 3>& dims, StoredType type);
 
 // Header parsers. `bytes` is the beginning of a file (all of it when it is shorter than
-// kLongestHeader), `path` names it in messages and is not opened. They read nothing outside `bytes` and throw
-// FileError for everything they do not understand; check_header() is still to be called.
+// kLongestHeader), `path` names it in messages and is not opened. They read nothing outside `bytes`
+// and throw FileError for everything they do not understand; check_header() is still to be called.
 
 constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
 
 /// NIfTI-1 and -2 (decompressed), .nii or the .hdr of a pair. RAS is turned into LPS, units into
-/// millimetres. sform_code > 0: the sform; else qform_code > 0: the qform; else the voxel axes are taken
-/// for R, A, S from the first sample on, with a warning.
-/// Source: nifti1.h and nifti2.h of the NIfTI Data Format Working Group.
+/// millimetres. sform_code > 0: the sform; else qform_code > 0: the qform; else the voxel axes are
+/// taken for R, A, S from the first sample on, with a warning. Source: nifti1.h and nifti2.h of the
+/// NIfTI Data Format Working Group.
 [[nodiscard]] VolumeHeader parse_nifti_header(std::string_view bytes,
                                               const std::filesystem::path& path);
 /// True when the bytes begin with a NIfTI header, in either byte order.

@@ -59,7 +59,8 @@ void describe(const T* samples, std::size_t count, std::size_t row, VolumeDescri
     if (!is_finite(samples[index])) continue;
     int bin = 0;
     if (half_width > 0.0) {
-      const double offset = 0.5 * static_cast<double>(samples[index]) - 0.5 * result.histogram_lower;
+      const double offset =
+          0.5 * static_cast<double>(samples[index]) - 0.5 * result.histogram_lower;
       bin = std::clamp(static_cast<int>(offset / half_width), 0, bins - 1);
     }
     ++result.histogram[static_cast<std::size_t>(bin)];

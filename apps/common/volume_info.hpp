@@ -21,13 +21,13 @@ struct VolumeDescription {
   Eigen::Matrix3d direction = Eigen::Matrix3d::Identity();
   std::uint64_t finite = 0;      ///< Samples that are finite numbers.
   std::uint64_t non_finite = 0;  ///< NaN and infinities; finite + non_finite = product of dims.
-  double minimum = 0.0;          ///< Of the finite samples; 0 when there are none, as the two below.
+  double minimum = 0.0;  ///< Of the finite samples; 0 when there are none, as the two below.
   double maximum = 0.0;
   double mean = 0.0;
-  /// Counts of finite samples in bins of equal width: bin b holds lower + b·width ≤ v < lower + (b+1)·width,
-  /// the last also its upper end. Integers of fewer than kBins values have a bin for each, centred at it
-  /// (lower = minimum − ½, width 1); other bins begin at the minimum and end at the maximum. A constant
-  /// has one bin. Empty without finite samples.
+  /// Counts of finite samples in bins of equal width: bin b holds lower + b·width ≤ v < lower +
+  /// (b+1)·width, the last also its upper end. Integers of fewer than kBins values have a bin for
+  /// each, centred at it (lower = minimum − ½, width 1); other bins begin at the minimum and end at
+  /// the maximum. A constant has one bin. Empty without finite samples.
   std::vector<std::uint64_t> histogram;
   double histogram_lower = 0.0;
   double histogram_width = 0.0;

@@ -8,9 +8,9 @@
 
 #include "byte_source.hpp"
 #include "error.hpp"
-#include "formats.hpp"
 #include "payload.hpp"
 #include "text.hpp"
+#include "volume_formats.hpp"
 #include "volume_header.hpp"
 
 namespace shape3d::apps {
@@ -33,7 +33,8 @@ std::string read_decompressed_head(const std::filesystem::path& path, std::size_
 // The beginning of a text of "Key = value" lines that holds MetaImage's required keys.
 bool begins_like_metaimage(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, 4096);
-  return head.find("NDims") != std::string_view::npos && head.find("DimSize") != std::string_view::npos;
+  return head.find("NDims") != std::string_view::npos &&
+         head.find("DimSize") != std::string_view::npos;
 }
 
 std::optional<VolumeFormat> format_by_content(std::string_view bytes) {
@@ -99,12 +100,12 @@ Volume dispatch(const std::filesystem::path& path, const VolumeReadOptions& opti
   const std::optional<VolumeFormat> format = detect_volume_format(path);
   if (!format) {
     const std::string extension = path.extension().string();
-    throw FileError(path, "is no volume of a known format (its extension is " + quoted(extension) + "); " +
-                              expected_formats());
+    throw FileError(path, "is no volume of a known format (its extension is " +
+                              in_quotes(extension) + "); " + expected_formats());
   }
   if (*format != VolumeFormat::dicom && !options.series.empty()) {
     throw FileError(path, "is " + std::string(to_string(*format)) + "; a series (" +
-                              quoted(options.series) + ") can be chosen from DICOM files only");
+                              in_quotes(options.series) + ") can be chosen from DICOM files only");
   }
   switch (*format) {
     case VolumeFormat::dicom:
@@ -186,7 +187,8 @@ Volume read_nrrd(const std::filesystem::path& path, std::uint64_t memory_limit) 
 }
 
 Volume read_metaimage(const std::filesystem::path& path, std::uint64_t memory_limit) {
-  return load_volume(parse_metaimage_header(read_head(path, kLongestHeader), path), path, memory_limit);
+  return load_volume(parse_metaimage_header(read_head(path, kLongestHeader), path), path,
+                     memory_limit);
 }
 
 }  // namespace shape3d::apps

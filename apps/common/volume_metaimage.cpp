@@ -38,11 +38,11 @@ class Reader {
       if (line.empty()) continue;
       const std::size_t equals = line.find('=');
       if (equals == std::string_view::npos) {
-        throw FileError(path_, "header line " + quoted(line) + "; expected \"Key = value\"");
+        throw FileError(path_, "header line " + in_quotes(line) + "; expected \"Key = value\"");
       }
       const std::string key(trim(line.substr(0, equals)));
       if (!fields_.emplace(key, trim(line.substr(equals + 1))).second && key != "Comment") {
-        throw FileError(path_, "header has two fields " + quoted(key));
+        throw FileError(path_, "header has two fields " + in_quotes(key));
       }
       if (key == "ElementDataFile") {
         size_ = position;
@@ -63,7 +63,7 @@ class Reader {
   [[nodiscard]] FileError bad(std::string_view key, const std::string& expected) const {
     const std::string field = "field \"" + std::string(key) + "\"";
     if (!has(key)) return FileError(path_, "header has no " + field + "; expected " + expected);
-    return FileError(path_, field + " is " + quoted(get(key)) + "; expected " + expected);
+    return FileError(path_, field + " is " + in_quotes(get(key)) + "; expected " + expected);
   }
 
   [[nodiscard]] std::int64_t integer(std::string_view key, std::int64_t otherwise) const {
@@ -75,13 +75,15 @@ class Reader {
 
   [[nodiscard]] bool boolean(std::string_view key) const {
     const std::string value = lower_case(get(key));
-    if (value.empty() || value == "false" || value == "f" || value == "0" || value == "no") return false;
+    if (value.empty() || value == "false" || value == "f" || value == "0" || value == "no")
+      return false;
     if (value == "true" || value == "t" || value == "1" || value == "yes") return true;
     throw bad(key, "True or False");
   }
 
   // `count` numbers; nothing when the key is not there.
-  [[nodiscard]] std::optional<std::vector<double>> reals(std::string_view key, std::size_t count) const {
+  [[nodiscard]] std::optional<std::vector<double>> reals(std::string_view key,
+                                                         std::size_t count) const {
     if (!has(key)) return std::nullopt;
     std::vector<double> values;
     for (const std::string_view word : split_words(get(key))) {
@@ -137,7 +139,8 @@ class Reader {
     };
     const std::int64_t channels = integer("ElementNumberOfChannels", 1);
     if (channels != 1) {
-      throw FileError(path_, "holds " + std::to_string(channels) + " components a voxel; expected one");
+      throw FileError(path_,
+                      "holds " + std::to_string(channels) + " components a voxel; expected one");
     }
     const auto type = kTypes.find(get("ElementType"));
     if (type == kTypes.end()) throw bad("ElementType", "a number type, MET_CHAR to MET_DOUBLE");
@@ -147,8 +150,10 @@ class Reader {
   void read_place() {
     const std::string_view spacing_key = either({"ElementSpacing", "ElementSize"});
     const auto spacing = reals(spacing_key, rank_).value_or(std::vector<double>(rank_, 1.0));
-    if (!has(spacing_key)) header_.warnings.push_back("has no ElementSpacing: taken for 1 mm along each axis");
-    const auto matrix = reals(either({"TransformMatrix", "Rotation", "Orientation"}), rank_ * rank_);
+    if (!has(spacing_key))
+      header_.warnings.push_back("has no ElementSpacing: taken for 1 mm along each axis");
+    const auto matrix =
+        reals(either({"TransformMatrix", "Rotation", "Orientation"}), rank_ * rank_);
     const auto offset = reals(either({"Offset", "Position", "Origin"}), rank_)
                             .value_or(std::vector<double>(rank_, 0.0));
     double unit = 1.0;
@@ -169,7 +174,8 @@ class Reader {
       // A zero or negative spacing would vanish in the affine.
       if (!(spacing[axis] > 0.0)) {
         throw FileError(path_, "spacing " + to_text(spacing[axis]) + " along axis " +
-                                   std::to_string(axis + 1) + "; expected a finite positive number");
+                                   std::to_string(axis + 1) +
+                                   "; expected a finite positive number");
       }
       origin[n] = offset[axis] * unit;
       if (matrix) {
@@ -182,15 +188,16 @@ class Reader {
     set_affine(header_, columns, origin, path_);
     keep_axes(matrix, spacing, unit);
     // Intensities are slope · element + offset.
-    if (const auto slope = reals("ElementToIntensityFunctionSlope", 1)) header_.slope = slope->front();
+    if (const auto slope = reals("ElementToIntensityFunctionSlope", 1))
+      header_.slope = slope->front();
     if (const auto intercept = reals("ElementToIntensityFunctionOffset", 1)) {
       header_.intercept = intercept->front();
     }
   }
 
   // Spacing and axes as written, where the axes have unit length but for rounding.
-  void keep_axes(const std::optional<std::vector<double>>& matrix, const std::vector<double>& spacing,
-                 double unit) {
+  void keep_axes(const std::optional<std::vector<double>>& matrix,
+                 const std::vector<double>& spacing, double unit) {
     constexpr double kRounding = 1e-12;
     for (int n = 0; n < 3; ++n) {
       const double written = spacing[static_cast<std::size_t>(n)] * unit;
@@ -198,7 +205,8 @@ class Reader {
       header_.spacing[n] = written;
       if (!matrix) continue;
       for (int row = 0; row < 3; ++row) {
-        header_.direction(row, n) = (*matrix)[static_cast<std::size_t>(n) * rank_ + static_cast<std::size_t>(row)];
+        header_.direction(row, n) =
+            (*matrix)[static_cast<std::size_t>(n) * rank_ + static_cast<std::size_t>(row)];
       }
     }
   }
@@ -212,7 +220,8 @@ class Reader {
     payload.big_endian = boolean(either({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"}));
     const std::int64_t skip = integer("HeaderSize", 0);
     const bool at_end = skip == -1 && payload.encoding == Encoding::raw;
-    if (skip < 0 && !at_end) throw bad("HeaderSize", "a number that is not negative, or -1 for raw data");
+    if (skip < 0 && !at_end)
+      throw bad("HeaderSize", "a number that is not negative, or -1 for raw data");
 
     const std::string_view name = get("ElementDataFile");
     const auto words = split_words(name);

@@ -93,8 +93,8 @@ Nifti read_nifti(std::string_view bytes, const std::filesystem::path& path) {
   const std::optional<bool> swapped = byte_order(bytes);
   if (!swapped) {
     if (bytes.size() < kNifti1Size) {
-      throw FileError(path, "is " + std::to_string(bytes.size()) +
-                                " bytes long; a NIfTI header alone has 348");
+      throw FileError(
+          path, "is " + std::to_string(bytes.size()) + " bytes long; a NIfTI header alone has 348");
     }
     throw FileError(path, "is not NIfTI: its first number is " +
                               std::to_string(size_field(bytes, false)) +
@@ -113,9 +113,10 @@ Nifti read_nifti(std::string_view bytes, const std::filesystem::path& path) {
     magic = bytes.substr(344, 4);
     nifti.pair = magic.substr(0, 3) == "ni1";
     if (!nifti.pair && magic.substr(0, 3) != "n+1") {
-      throw FileError(path, "its NIfTI magic is " + quoted(magic.substr(0, 3)) +
-                                "; expected \"n+1\" or \"ni1\" (ANALYZE 7.5 files do not say how they lie "
-                                "in the patient and are not read)");
+      throw FileError(
+          path, "its NIfTI magic is " + in_quotes(magic.substr(0, 3)) +
+                    "; expected \"n+1\" or \"ni1\" (ANALYZE 7.5 files do not say how they lie "
+                    "in the patient and are not read)");
     }
     read_fields<std::int16_t, float, std::int16_t>(
         fields, {40, 76, 70, 112, 116, 252, 254, 256, 268, 280}, nifti);
@@ -126,7 +127,7 @@ Nifti read_nifti(std::string_view bytes, const std::filesystem::path& path) {
     magic = bytes.substr(4, 8);
     nifti.pair = magic.substr(0, 3) == "ni2";
     if (!nifti.pair && magic.substr(0, 3) != "n+2") {
-      throw FileError(path, "its NIfTI magic is " + quoted(magic.substr(0, 3)) +
+      throw FileError(path, "its NIfTI magic is " + in_quotes(magic.substr(0, 3)) +
                                 "; expected \"n+2\" or \"ni2\"");
     }
     read_fields<std::int64_t, double, std::int32_t>(
@@ -216,10 +217,12 @@ Eigen::Matrix3d rotation(const Nifti& nifti, const std::filesystem::path& path) 
   // Float rounding of three parts of at most 1.
   constexpr double kRounding = 1e-6;
   if (!(rest >= -kRounding)) {
-    throw FileError(path, "qform quaternion (" + to_text(b) + ", " + to_text(c) + ", " + to_text(d) +
-                              ") is longer than 1");
+    throw FileError(path, "qform quaternion (" + to_text(b) + ", " + to_text(c) + ", " +
+                              to_text(d) + ") is longer than 1");
   }
-  return Eigen::Quaterniond(std::sqrt(std::max(rest, 0.0)), b, c, d).normalized().toRotationMatrix();
+  return Eigen::Quaterniond(std::sqrt(std::max(rest, 0.0)), b, c, d)
+      .normalized()
+      .toRotationMatrix();
 }
 
 }  // namespace
@@ -275,9 +278,11 @@ VolumeHeader parse_nifti_header(std::string_view bytes, const std::filesystem::p
 
   const double first = nifti.version == 1 ? 352.0 : 544.0;
   const double offset = nifti.vox_offset == 0.0 && !nifti.pair ? first : nifti.vox_offset;
-  if (!(offset >= (nifti.pair ? 0.0 : first)) || !(offset <= 1e15) || std::trunc(offset) != offset) {
+  if (!(offset >= (nifti.pair ? 0.0 : first)) || !(offset <= 1e15) ||
+      std::trunc(offset) != offset) {
     throw FileError(path, "vox_offset is " + to_text(nifti.vox_offset) +
-                              "; expected a byte position of at least " + to_text(nifti.pair ? 0.0 : first));
+                              "; expected a byte position of at least " +
+                              to_text(nifti.pair ? 0.0 : first));
   }
   header.payload.byte_skip = static_cast<std::int64_t>(offset);
   header.payload.pair = nifti.pair;

@@ -42,7 +42,8 @@ std::string spelled(std::string_view name) {
 Nrrd split(std::string_view bytes, const std::filesystem::path& path) {
   const std::string_view magic = bytes.substr(0, 8);
   if (magic.size() < 8 || magic.substr(0, 7) != "NRRD000" || magic[7] < '1' || magic[7] > '5') {
-    throw FileError(path, "begins with " + quoted(magic) + "; expected \"NRRD0001\" to \"NRRD0005\"");
+    throw FileError(path,
+                    "begins with " + in_quotes(magic) + "; expected \"NRRD0001\" to \"NRRD0005\"");
   }
   Nrrd nrrd;
   bool first = true;
@@ -58,14 +59,14 @@ Nrrd split(std::string_view bytes, const std::filesystem::path& path) {
     if (line[0] == '#') continue;
     const std::size_t colon = line.find(':');
     if (colon == std::string_view::npos) {
-      throw FileError(path, "header line " + quoted(line) + "; expected \"field: value\"");
+      throw FileError(path, "header line " + in_quotes(line) + "; expected \"field: value\"");
     }
     // "key:=value" is free text.
     if (colon + 1 < line.size() && line[colon + 1] == '=') continue;
     const std::string name = field_name(line.substr(0, colon));
     const std::string_view value = trim(line.substr(colon + 1));
     if (!nrrd.fields.emplace(name, value).second) {
-      throw FileError(path, "header has two fields " + quoted(name));
+      throw FileError(path, "header has two fields " + in_quotes(name));
     }
     if (name == "datafile" && value.substr(0, 4) == "LIST") {
       nrrd.after_list = bytes.substr(nrrd.size);
@@ -104,7 +105,7 @@ class Reader {
   [[nodiscard]] FileError bad(std::string_view name, const std::string& expected) const {
     const std::string field = "field \"" + spelled(name) + "\"";
     if (!has(name)) return FileError(path_, "header has no " + field + "; expected " + expected);
-    return FileError(path_, field + " is " + quoted(get(name)) + "; expected " + expected);
+    return FileError(path_, field + " is " + in_quotes(get(name)) + "; expected " + expected);
   }
 
   [[nodiscard]] std::int64_t integer(std::string_view name, std::int64_t otherwise) const {
@@ -118,7 +119,8 @@ class Reader {
   [[nodiscard]] std::vector<std::string_view> axis_words(std::string_view name) const {
     if (!has(name)) return {};
     std::vector<std::string_view> words = split_words(get(name));
-    if (words.size() != rank_) throw bad(name, std::to_string(rank_) + " entries, one for each axis");
+    if (words.size() != rank_)
+      throw bad(name, std::to_string(rank_) + " entries, one for each axis");
     return words;
   }
 
@@ -206,7 +208,8 @@ class Reader {
         const std::string kind = kinds.empty() ? "" : lower_case(kinds[axis]);
         const bool frames = kind == "time" || kind == "list" || (axis > 0 && axis + 1 == rank_);
         throw FileError(path_, "holds " + std::to_string(sizes[axis]) +
-                                   (frames ? " frames (4-D)" : " components a voxel") + "; expected one");
+                                   (frames ? " frames (4-D)" : " components a voxel") +
+                                   "; expected one");
       }
     }
     if (axes_.size() > 3) {
@@ -214,7 +217,8 @@ class Reader {
                                  std::to_string(axes_.size()) + "-D); expected one");
     }
     if (axes_.size() < 3) {
-      throw FileError(path_, "has " + std::to_string(axes_.size()) + " axes in space; a volume has three");
+      throw FileError(path_,
+                      "has " + std::to_string(axes_.size()) + " axes in space; a volume has three");
     }
     for (std::size_t n = 0; n < 3; ++n) header_.dims[n] = sizes[axes_[n]];
   }
@@ -262,12 +266,16 @@ class Reader {
   Eigen::Vector3d world_signs() {
     std::string space = lower_case(get("space"));
     std::replace(space.begin(), space.end(), '_', '-');
-    if (space.size() > 5 && space.substr(space.size() - 5) == "-time") space.resize(space.size() - 5);
-    if (space == "right-anterior-superior" || space == "ras" || space == "rast") return {-1.0, -1.0, 1.0};
-    if (space == "left-anterior-superior" || space == "las" || space == "last") return {1.0, -1.0, 1.0};
-    if (space == "left-posterior-superior" || space == "lps" || space == "lpst") return {1.0, 1.0, 1.0};
+    if (space.size() > 5 && space.substr(space.size() - 5) == "-time")
+      space.resize(space.size() - 5);
+    if (space == "right-anterior-superior" || space == "ras" || space == "rast")
+      return {-1.0, -1.0, 1.0};
+    if (space == "left-anterior-superior" || space == "las" || space == "last")
+      return {1.0, -1.0, 1.0};
+    if (space == "left-posterior-superior" || space == "lps" || space == "lpst")
+      return {1.0, 1.0, 1.0};
     if (space == "scanner-xyz" || space == "3d-right-handed" || space == "3d-left-handed") {
-      header_.warnings.push_back("space " + quoted(get("space")) +
+      header_.warnings.push_back("space " + in_quotes(get("space")) +
                                  " does not say where the patient's left is: taken for LPS");
     } else if (!space.empty()) {
       throw bad("space", "LPS, RAS or LAS");
@@ -277,19 +285,20 @@ class Reader {
     return {1.0, 1.0, 1.0};
   }
 
-  // Factors that turn the file's units into millimetres: "space units" has one for each axis of space,
-  // "units" one for each axis of the file.
+  // Factors that turn the file's units into millimetres: "space units" has one for each axis of
+  // space, "units" one for each axis of the file.
   Eigen::Vector3d unit_factors() {
     static const std::map<std::string_view, double> kUnits{
-        {"mm", 1.0},          {"millimeter", 1.0}, {"millimeters", 1.0}, {"um", 1e-3},
-        {"\xc2\xb5m", 1e-3}, {"cm", 10.0},        {"m", 1000.0},        {"", 1.0},
-        {"???", 1.0}};
+        {"mm", 1.0},   {"millimeter", 1.0}, {"millimeters", 1.0},
+        {"um", 1e-3},  {"\xc2\xb5m", 1e-3}, {"cm", 10.0},
+        {"m", 1000.0}, {"", 1.0},           {"???", 1.0}};
     const bool of_space = !directions_.empty();
     const std::string_view name = of_space ? "spaceunits" : "units";
     std::vector<std::string_view> units;
     for (std::string_view text = get(name); units.size() < rank_;) {
       const std::size_t first = text.find('"');
-      const std::size_t second = first == std::string_view::npos ? first : text.find('"', first + 1);
+      const std::size_t second =
+          first == std::string_view::npos ? first : text.find('"', first + 1);
       if (second == std::string_view::npos) break;
       units.push_back(trim(text.substr(first + 1, second - first - 1)));
       text.remove_prefix(second + 1);
@@ -300,7 +309,8 @@ class Reader {
       if (index >= units.size()) continue;
       const auto unit = kUnits.find(units[index]);
       if (unit == kUnits.end()) {
-        header_.warnings.push_back("unit " + quoted(units[index]) + " is not known: taken for millimetres");
+        header_.warnings.push_back("unit " + in_quotes(units[index]) +
+                                   " is not known: taken for millimetres");
       } else {
         factors[static_cast<int>(n)] = unit->second;
       }
@@ -336,7 +346,8 @@ class Reader {
     return value;
   }
 
-  // Axis-aligned volumes: "spacings", or "axis mins" and "axis maxs" of the samples' centres or borders.
+  // Axis-aligned volumes: "spacings", or "axis mins" and "axis maxs" of the samples' centres or
+  // borders.
   void read_spacings(Eigen::Matrix3d& columns, Eigen::Vector3d& origin) {
     const auto centerings = axis_words("centerings");
     bool known = false;
@@ -352,7 +363,8 @@ class Reader {
       }
       known = known || spacing.has_value();
       if (spacing && !(std::isfinite(*spacing) && *spacing > 0.0)) {
-        throw FileError(path_, "spacing " + to_text(*spacing) + " along axis " + std::to_string(axis + 1) +
+        throw FileError(path_, "spacing " + to_text(*spacing) + " along axis " +
+                                   std::to_string(axis + 1) +
                                    "; expected a finite positive number");
       }
       columns(n, n) = spacing.value_or(1.0);
@@ -376,8 +388,8 @@ class Reader {
     const std::string endian = lower_case(get("endian"));
     if (endian == "big") {
       payload.big_endian = true;
-    } else if (endian != "little" &&
-               (!endian.empty() || (sample_size(header_.type) > 1 && payload.encoding != Encoding::text))) {
+    } else if (endian != "little" && (!endian.empty() || (sample_size(header_.type) > 1 &&
+                                                          payload.encoding != Encoding::text))) {
       throw bad("endian", "\"little\" or \"big\"");
     }
     payload.line_skip = integer("lineskip", 0);
@@ -399,7 +411,8 @@ class Reader {
     Payload& payload = header_.payload;
     if (!has("datafile")) {
       if (!nrrd_.ended) {
-        throw FileError(path_, "its NRRD header has no end: neither an empty line nor a \"data file\"");
+        throw FileError(path_,
+                        "its NRRD header has no end: neither an empty line nor a \"data file\"");
       }
       // Skips count from the end of the header.
       if (payload.byte_skip == Payload::kAtEnd) return;
@@ -416,9 +429,13 @@ class Reader {
       check_slab_rank(words, 1);
       payload.files = listed_names(nrrd_.after_list, path_);
     } else if (words.size() >= 4 && value.find('%') != std::string_view::npos) {
-      const std::size_t numbers = words.size() > 4 && parse_integer(words[words.size() - 4]) ? 4 : 3;
-      const auto number = [&](std::size_t n) { return parse_integer(words[words.size() - numbers + n]); };
-      if (!number(0) || !number(1) || !number(2)) throw bad("datafile", "a pattern, first, last and step");
+      const std::size_t numbers =
+          words.size() > 4 && parse_integer(words[words.size() - 4]) ? 4 : 3;
+      const auto number = [&](std::size_t n) {
+        return parse_integer(words[words.size() - numbers + n]);
+      };
+      if (!number(0) || !number(1) || !number(2))
+        throw bad("datafile", "a pattern, first, last and step");
       if (numbers == 4) check_slab_rank(words, words.size() - 1);
       // The pattern may contain blanks.
       const std::string_view last_word = words[words.size() - numbers - 1];
@@ -446,8 +463,9 @@ class Reader {
   const std::filesystem::path& path_;
   VolumeHeader header_;
   std::size_t rank_ = 0;
-  std::vector<std::optional<Eigen::Vector3d>> directions_;  ///< For each axis of the file, or empty.
-  std::vector<std::size_t> axes_;                           ///< The three axes of space.
+  std::vector<std::optional<Eigen::Vector3d>>
+      directions_;                 ///< For each axis of the file, or empty.
+  std::vector<std::size_t> axes_;  ///< The three axes of space.
 };
 
 }  // namespace

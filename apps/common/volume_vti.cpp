@@ -10,10 +10,10 @@
 #include <vtkXMLImageDataReader.h>
 
 #include "error.hpp"
-#include "formats.hpp"
 #include "memory_limit.hpp"
 #include "payload.hpp"
 #include "text.hpp"
+#include "volume_formats.hpp"
 #include "vti_layout.hpp"
 #include "vtk_messages.hpp"
 
@@ -55,7 +55,7 @@ struct StoredArray {
 StoredArray stored_array(const VtiLayout& layout, const VtiArray& array, std::uint64_t file_bytes,
                          const std::filesystem::path& path) {
   const auto cut_off = [&] {
-    return FileError(path, "is cut off: array " + quoted(array.name) + " begins at byte " +
+    return FileError(path, "is cut off: array " + in_quotes(array.name) + " begins at byte " +
                                std::to_string(layout.appended_at + array.offset) + " of " +
                                std::to_string(file_bytes));
   };
@@ -71,12 +71,13 @@ StoredArray stored_array(const VtiLayout& layout, const VtiArray& array, std::ui
   std::uint64_t blocks = 0;
   std::uint64_t block = 0;
   std::uint64_t last = 0;
-  if (start > file_bytes || !words.next(blocks) || !words.next(block) || !words.next(last)) throw cut_off();
+  if (start > file_bytes || !words.next(blocks) || !words.next(block) || !words.next(last))
+    throw cut_off();
   if (blocks > (file_bytes - start) / layout.word) throw cut_off();
   // Blocks are full but for the last, which is full when its size is 0.
   if (__builtin_mul_overflow(blocks, block, &result.decoded) ||
       (last > 0 && (blocks == 0 || last > block))) {
-    throw FileError(path, "array " + quoted(array.name) + " has impossible block lengths");
+    throw FileError(path, "array " + in_quotes(array.name) + " has impossible block lengths");
   }
   if (last > 0) result.decoded -= block - last;
   result.end = start + (3 + blocks) * layout.word;
@@ -89,7 +90,8 @@ StoredArray stored_array(const VtiLayout& layout, const VtiArray& array, std::ui
 }
 
 // Lengths of the appended arrays against the extents of their pieces and the length of the file.
-void check_appended(const VtiLayout& layout, std::uint64_t file_bytes, const std::filesystem::path& path) {
+void check_appended(const VtiLayout& layout, std::uint64_t file_bytes,
+                    const std::filesystem::path& path) {
   for (const VtiPiece& piece : layout.pieces) {
     for (const VtiArray& array : piece.arrays) {
       if (array.name != layout.scalars || !array.appended || !layout.appended_raw) continue;
@@ -99,11 +101,12 @@ void check_appended(const VtiLayout& layout, std::uint64_t file_bytes, const std
       }
       const StoredArray stored = stored_array(layout, array, file_bytes, path);
       if (stored.decoded != expected) {
-        throw FileError(path, "array " + quoted(array.name) + " holds " + std::to_string(stored.decoded) +
-                                  " bytes; expected " + std::to_string(expected) + ", says the extent");
+        throw FileError(path, "array " + in_quotes(array.name) + " holds " +
+                                  std::to_string(stored.decoded) + " bytes; expected " +
+                                  std::to_string(expected) + ", says the extent");
       }
       if (stored.end > file_bytes) {
-        throw FileError(path, "is cut off: array " + quoted(array.name) + " ends at byte " +
+        throw FileError(path, "is cut off: array " + in_quotes(array.name) + " ends at byte " +
                                   std::to_string(stored.end) + "; the file has " +
                                   std::to_string(file_bytes) + " bytes");
       }
@@ -111,7 +114,8 @@ void check_appended(const VtiLayout& layout, std::uint64_t file_bytes, const std
   }
 }
 
-vtkSmartPointer<vtkImageData> read_with_vtk(const std::filesystem::path& path, const VtiLayout& layout) {
+vtkSmartPointer<vtkImageData> read_with_vtk(const std::filesystem::path& path,
+                                            const VtiLayout& layout) {
   const VtkMessages messages;
   const auto reader = vtkSmartPointer<vtkXMLImageDataReader>::New();
   reader->SetFileName(path.c_str());
@@ -135,7 +139,7 @@ vtkSmartPointer<vtkImageData> read_with_vtk(const std::filesystem::path& path, c
 }  // namespace
 
 Volume read_vti(const std::filesystem::path& path, std::uint64_t memory_limit) {
-  const std::uint64_t file_bytes = file_size(path);
+  const std::uint64_t file_bytes = readable_size(path);
   VtiLayout layout;
   {
     FileSource source(path);
@@ -145,16 +149,18 @@ Volume read_vti(const std::filesystem::path& path, std::uint64_t memory_limit) {
   const std::uint64_t bytes = payload_bytes(header);
   check_appended(layout, file_bytes, path);
   // VTK's image and its copy.
-  require_memory(path, 2 * bytes, memory_limit, "reading " + samples_text(header.dims, header.type));
+  require_memory(path, 2 * bytes, memory_limit,
+                 "reading " + samples_text(header.dims, header.type));
   if (bytes / kMostExpansion > file_bytes) {
     throw FileError(path, "is " + std::to_string(file_bytes) + " bytes long; it cannot hold the " +
                               samples_text(header.dims, header.type) + " the header says");
   }
   vtkSmartPointer<vtkImageData> image = read_with_vtk(path, layout);
   vtkDataArray* array = image->GetPointData()->GetArray(layout.scalars.c_str());
-  const std::uint64_t found = array == nullptr ? 0
-                                               : static_cast<std::uint64_t>(array->GetNumberOfValues()) *
-                                                     static_cast<std::uint64_t>(array->GetDataTypeSize());
+  const std::uint64_t found = array == nullptr
+                                  ? 0
+                                  : static_cast<std::uint64_t>(array->GetNumberOfValues()) *
+                                        static_cast<std::uint64_t>(array->GetDataTypeSize());
   if (found != bytes) {
     throw FileError(path, "holds " + std::to_string(found) + " bytes of data; expected " +
                               std::to_string(bytes) + ", says the header");
@@ -162,7 +168,8 @@ Volume read_vti(const std::filesystem::path& path, std::uint64_t memory_limit) {
   std::vector<std::byte> data(bytes);
   std::memcpy(data.data(), array->GetVoidPointer(0), bytes);
   image = nullptr;
-  TypedSamples samples = convert_samples(std::move(data), header.type, {Scale{}}, path, memory_limit);
+  TypedSamples samples =
+      convert_samples(std::move(data), header.type, {Scale{}}, path, memory_limit);
   return make_volume(std::move(header), std::move(samples));
 }
 

@@ -27,9 +27,9 @@ std::string decoded(std::string_view text) {
       {"&quot;", '"'}, {"&apos;", '\''}, {"&lt;", '<'}, {"&gt;", '>'}, {"&amp;", '&'}};
   std::string result;
   while (!text.empty()) {
-    const auto* entity = std::find_if(std::begin(kEntities), std::end(kEntities), [&](const auto& e) {
-      return text.substr(0, e.first.size()) == e.first;
-    });
+    const auto* entity =
+        std::find_if(std::begin(kEntities), std::end(kEntities),
+                     [&](const auto& e) { return text.substr(0, e.first.size()) == e.first; });
     if (entity != std::end(kEntities)) {
       result += entity->second;
       text.remove_prefix(entity->first.size());
@@ -108,12 +108,14 @@ class Tags {
       const std::size_t equals = text.find('=');
       const std::string_view value =
           equals == std::string_view::npos ? std::string_view() : trim(text.substr(equals + 1));
-      const std::size_t close =
-          value.empty() || (value[0] != '"' && value[0] != '\'') ? std::string_view::npos : value.find(value[0], 1);
+      const std::size_t close = value.empty() || (value[0] != '"' && value[0] != '\'')
+                                    ? std::string_view::npos
+                                    : value.find(value[0], 1);
       if (close == std::string_view::npos) {
-        throw FileError(path_, "XML tag " + quoted(whole) + "; expected name=\"value\" pairs");
+        throw FileError(path_, "XML tag " + in_quotes(whole) + "; expected name=\"value\" pairs");
       }
-      tag.attributes[std::string(trim(text.substr(0, equals)))] = decoded(value.substr(1, close - 1));
+      tag.attributes[std::string(trim(text.substr(0, equals)))] =
+          decoded(value.substr(1, close - 1));
       text = trim(value.substr(close + 1));
     }
     return tag;
@@ -129,14 +131,16 @@ class Tags {
 
 class Reader {
  public:
-  Reader(ByteSource& source, const std::filesystem::path& path) : path_(path), tags_(source, path) {}
+  Reader(ByteSource& source, const std::filesystem::path& path)
+      : path_(path), tags_(source, path) {}
 
   VtiLayout read() {
     bool in_points = false;
     bool ended = false;
     while (const std::optional<Tag> tag = tags_.next()) {
       if (!seen_file_ && tag->name != "VTKFile") {
-        throw FileError(path_, "begins with the XML tag " + quoted(tag->name) + "; expected VTKFile");
+        throw FileError(path_,
+                        "begins with the XML tag " + in_quotes(tag->name) + "; expected VTKFile");
       }
       if (tag->name == "VTKFile") read_file(*tag);
       if (tag->name == "ImageData") read_image(*tag);
@@ -169,9 +173,10 @@ class Reader {
     return found == tag.attributes.end() ? std::string() : found->second;
   }
 
-  [[nodiscard]] FileError bad(const Tag& tag, std::string_view name, const std::string& expected) const {
+  [[nodiscard]] FileError bad(const Tag& tag, std::string_view name,
+                              const std::string& expected) const {
     return FileError(path_, "attribute " + std::string(name) + " of " + tag.name + " is " +
-                                quoted(get(tag, name)) + "; expected " + expected);
+                                in_quotes(get(tag, name)) + "; expected " + expected);
   }
 
   [[nodiscard]] std::vector<double> reals(const Tag& tag, std::string_view name, std::size_t count,
@@ -229,7 +234,8 @@ class Reader {
     }
     const auto spacing = reals(tag, "Spacing", 3, {1.0, 1.0, 1.0});
     const auto origin = reals(tag, "Origin", 3, {0.0, 0.0, 0.0});
-    const auto direction = reals(tag, "Direction", 9, {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0});
+    const auto direction =
+        reals(tag, "Direction", 9, {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0});
     for (int row = 0; row < 3; ++row) {
       const auto n = static_cast<std::size_t>(row);
       layout_.header.spacing[row] = spacing[n];
@@ -247,9 +253,8 @@ class Reader {
       }
     }
     // VTK places sample (0, 0, 0) at the origin, whatever the extent.
-    layout_.header.origin =
-        Eigen::Vector3d(origin[0], origin[1], origin[2]) +
-        layout_.header.direction * layout_.header.spacing.cwiseProduct(first);
+    layout_.header.origin = Eigen::Vector3d(origin[0], origin[1], origin[2]) +
+                            layout_.header.direction * layout_.header.spacing.cwiseProduct(first);
   }
 
   void read_piece(const Tag& tag) {
@@ -288,7 +293,8 @@ class Reader {
       if (*c != ' ' && *c != '\t' && *c != '\r' && *c != '\n') break;
       c = tags_.get();
     }
-    if (!c || *c != '_') throw FileError(path_, "its appended data do not begin with an underscore");
+    if (!c || *c != '_')
+      throw FileError(path_, "its appended data do not begin with an underscore");
     layout_.appended_at = tags_.position();
   }
 
@@ -306,15 +312,17 @@ class Reader {
         const std::int64_t upper = piece.extent[2 * n + 1];
         if (lower > upper || lower < layout_.extent[2 * n] || upper > layout_.extent[2 * n + 1]) {
           throw FileError(path_, "a piece has samples " + std::to_string(lower) + " to " +
-                                     std::to_string(upper) + " along axis " + std::to_string(n + 1) +
-                                     "; the whole image has " + std::to_string(layout_.extent[2 * n]) +
-                                     " to " + std::to_string(layout_.extent[2 * n + 1]));
+                                     std::to_string(upper) + " along axis " +
+                                     std::to_string(n + 1) + "; the whole image has " +
+                                     std::to_string(layout_.extent[2 * n]) + " to " +
+                                     std::to_string(layout_.extent[2 * n + 1]));
         }
       }
       sum += cells(piece.extent);
     }
     if (layout_.pieces.empty()) throw FileError(path_, "holds no Piece");
-    if (sum < cells(layout_.extent)) throw FileError(path_, "its pieces do not fill the whole image");
+    if (sum < cells(layout_.extent))
+      throw FileError(path_, "its pieces do not fill the whole image");
   }
 
   void choose_array() {
@@ -330,27 +338,30 @@ class Reader {
     if (layout_.scalars.empty() && arrays.size() == 1) layout_.scalars = arrays.front().name;
     if (layout_.scalars.empty()) {
       std::string names;
-      for (const VtiArray& array : arrays) names += (names.empty() ? "" : ", ") + quoted(array.name);
-      throw FileError(path_, "holds several arrays (" + names + ") and PointData does not say which are its Scalars");
+      for (const VtiArray& array : arrays)
+        names += (names.empty() ? "" : ", ") + in_quotes(array.name);
+      throw FileError(path_, "holds several arrays (" + names +
+                                 ") and PointData does not say which are its Scalars");
     }
     for (const VtiPiece& piece : layout_.pieces) {
-      const auto array = std::find_if(piece.arrays.begin(), piece.arrays.end(), [&](const VtiArray& a) {
-        return a.name == layout_.scalars;
-      });
+      const auto array = std::find_if(piece.arrays.begin(), piece.arrays.end(),
+                                      [&](const VtiArray& a) { return a.name == layout_.scalars; });
       if (array == piece.arrays.end()) {
-        throw FileError(path_, "a piece has no array " + quoted(layout_.scalars));
+        throw FileError(path_, "a piece has no array " + in_quotes(layout_.scalars));
       }
       const auto type = kTypes.find(array->type);
       if (type == kTypes.end()) {
-        throw FileError(path_, "array " + quoted(array->name) + " has type " + quoted(array->type) +
-                                   "; expected Int8 to Float64");
+        throw FileError(path_, "array " + in_quotes(array->name) + " has type " +
+                                   in_quotes(array->type) + "; expected Int8 to Float64");
       }
       if (array->components != 1) {
-        throw FileError(path_, "array " + quoted(array->name) + " holds " +
-                                   std::to_string(array->components) + " components a voxel; expected one");
+        throw FileError(path_, "array " + in_quotes(array->name) + " holds " +
+                                   std::to_string(array->components) +
+                                   " components a voxel; expected one");
       }
       if (&piece != &layout_.pieces.front() && type->second != layout_.header.type) {
-        throw FileError(path_, "array " + quoted(array->name) + " has different types in its pieces");
+        throw FileError(path_,
+                        "array " + in_quotes(array->name) + " has different types in its pieces");
       }
       layout_.header.type = type->second;
     }

@@ -9,7 +9,8 @@
 namespace shape3d::apps {
 namespace {
 
-// VTK's "ERROR: In file, line n\nvtkClass (0x…): text" without what comes before the text; one line.
+// VTK's "ERROR: In file, line n\nvtkClass (0x…): text" without what comes before the text; one
+// line.
 std::string plain(const std::string& message) {
   std::string_view text = trim(message);
   if (text.substr(0, 10) == "ERROR: In " || text.substr(0, 12) == "Warning: In ") {
@@ -17,7 +18,8 @@ std::string plain(const std::string& message) {
     if (end != std::string_view::npos) text = trim(text.substr(end));
   }
   const std::size_t object = text.find("): ");
-  if (text.substr(0, 3) == "vtk" && object != std::string_view::npos) text = trim(text.substr(object + 3));
+  if (text.substr(0, 3) == "vtk" && object != std::string_view::npos)
+    text = trim(text.substr(object + 3));
   std::string result;
   for (const std::string_view word : split_words(text)) {
     result += result.empty() ? "" : " ";
@@ -31,7 +33,6 @@ std::string plain(const std::string& message) {
 class VtkMessages::Window : public vtkOutputWindow {
  public:
   static Window* New();
-  vtkTypeMacro(Window, vtkOutputWindow);
   Window(const Window&) = delete;
   void operator=(const Window&) = delete;
 

@@ -5,8 +5,8 @@
 
 namespace shape3d::apps {
 
-/// While one exists, what VTK would print goes to it instead: errors and warnings of every VTK object in the
-/// process. Not for use from several threads at a time.
+/// While one exists, what VTK would print goes to it instead: errors and warnings of every VTK
+/// object in the process. Not for use from several threads at a time.
 class VtkMessages {
  public:
   VtkMessages();
