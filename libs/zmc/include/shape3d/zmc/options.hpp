@@ -8,27 +8,29 @@ namespace shape3d::zmc {
 /// Which side of the isovalue is the inside. Triangle normals point from inside to outside.
 enum class Inside {
   below,  ///< Samples under the isovalue: level-set functions ψ, distance fields.
-  above   ///< Samples over the isovalue: CT, label maps. Equals extraction from the negated samples.
+  above  ///< Samples over the isovalue: CT, label maps. Equals extraction from the negated samples.
 };
 
 /// How equal products are ordered when an ambiguous face compares the positive with the negative.
 enum class TieRule {
-  neutral,  ///< By the lattice: the product holding the cell vertex first in (z, y, x) order counts as
-            ///< the larger. extract(−f) is then extract(f) reversed, exactly.
+  neutral,  ///< By the lattice: the product holding the cell vertex first in (z, y, x) order counts
+            ///< as the larger. extract(−f) is then extract(f) reversed, exactly.
   positive  ///< The dissertation's (2.3.2): positive wins when no less than negative.
 };
 
 /// How a patch of more than three vertices becomes triangles.
 enum class Triangulation {
-  compact,  ///< Diagonals only, none in a cell face; a patch that admits none such falls back to centroid.
+  compact,  ///< Diagonals only, none in a cell face; a patch that admits none such falls back to
+            ///< centroid.
   centroid  ///< The average of the vertices as a common vertex (2.3.3 of the dissertation).
 };
 
 /// Which cell faces of four zero samples become part of the surface.
 enum class ZeroFaces {
   boundary,  ///< Those whose two cells see different signs (2.3.3): the surface is closed.
-  mating     ///< Also those between equal signs (2.4), so that the common face of two touching parts survives;
-             ///< a face between two all-zero cells of equal sign lies within a block of zeros and is not one.
+  mating  ///< Also those between equal signs (2.4), so that the common face of two touching parts
+          ///< survives; a face between two all-zero cells of equal sign lies within a block of
+          ///< zeros and is not one.
 };
 
 /// What a NaN or infinite sample means.
@@ -40,8 +42,8 @@ enum class NonFinite {
 /// What happens where the surface reaches the border of the volume.
 enum class Border {
   open,   ///< It ends there.
-  capped  ///< It is closed as if the volume were surrounded by samples far outside: the cap lies at the
-          ///< border samples, 2⁻²⁰ of a spacing outwards.
+  capped  ///< It is closed as if the volume were surrounded by samples far outside: the cap lies at
+          ///< the border samples, 2⁻²⁰ of a spacing outwards.
 };
 
 /// Settings of extract() and contour().

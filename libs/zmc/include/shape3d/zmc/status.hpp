@@ -10,7 +10,8 @@ namespace shape3d::zmc {
 enum class Status {
   ok,                 ///< A surface.
   empty,              ///< A valid surface of no triangles: the isovalue separates no samples.
-  too_many_vertices,  ///< More vertices than Options::max_vertices or the index type allow; only counts are set.
+  too_many_vertices,  ///< More vertices than Options::max_vertices or the index type allow; only
+                      ///< counts are set.
   cancelled           ///< Options::progress returned false; the surface is empty.
 };
 

@@ -32,23 +32,24 @@ using Buffer = std::vector<T, UninitializedAllocator<T>>;
 
 /// Where a triangle comes from.
 enum class TriangleKind : std::uint8_t {
-  patch,     ///< Part of a patch, the polygon in one cell.
-  zero_face, ///< Part of a cell face whose four samples are zero (face case 12).
-  closing    ///< In a face of case 11 whose two cells bend the line to different zero vertices.
+  patch,      ///< Part of a patch, the polygon in one cell.
+  zero_face,  ///< Part of a cell face whose four samples are zero (face case 12).
+  closing     ///< In a face of case 11 whose two cells bend the line to different zero vertices.
 };
 
 /// What extract() met on the way.
 struct Counts {
-  std::int64_t cells_with_patch = 0;            ///< Cells that contain at least one patch.
-  std::array<std::int64_t, 13> faces_by_case{}; ///< [c − 1]: faces of case c among the six of each such cell (Fig. 3.7).
-  std::int64_t patches = 0;                     ///< Polygons in cells.
-  std::int64_t zero_vertices = 0;               ///< Zero cell vertices that are vertices of the surface.
-  std::int64_t zero_faces = 0;                  ///< Faces of case 12 in the surface (quads, not triangles).
-  std::int64_t closing_triangles = 0;           ///< Triangles of kind closing.
-  std::int64_t all_zero_cells = 0;              ///< Cells of eight zero samples.
-  std::int64_t masked_cells = 0;                ///< Cells skipped for a non-finite sample.
-  std::int64_t centroids = 0;                   ///< Vertices that are centroids of polygons.
-  std::int64_t nonmanifold_edges = 0;           ///< Edges of more than two triangles (all are zero edges).
+  std::int64_t cells_with_patch = 0;  ///< Cells that contain at least one patch.
+  std::array<std::int64_t, 13>
+      faces_by_case{};  ///< [c − 1]: faces of case c among the six of each such cell (Fig. 3.7).
+  std::int64_t patches = 0;            ///< Polygons in cells.
+  std::int64_t zero_vertices = 0;      ///< Zero cell vertices that are vertices of the surface.
+  std::int64_t zero_faces = 0;         ///< Faces of case 12 in the surface (quads, not triangles).
+  std::int64_t closing_triangles = 0;  ///< Triangles of kind closing.
+  std::int64_t all_zero_cells = 0;     ///< Cells of eight zero samples.
+  std::int64_t masked_cells = 0;       ///< Cells skipped for a non-finite sample.
+  std::int64_t centroids = 0;          ///< Vertices that are centroids of polygons.
+  std::int64_t nonmanifold_edges = 0;  ///< Edges of more than two triangles (all are zero edges).
 };
 
 /// Wall-clock seconds by stage.
@@ -56,7 +57,8 @@ struct Timings {
   double classify = 0.0, zero_regions = 0.0, count = 0.0, generate = 0.0;
 };
 
-/// Triangle mesh with shared vertices. Storage is kept and reused when the same object is filled again.
+/// Triangle mesh with shared vertices. Storage is kept and reused when the same object is filled
+/// again.
 ///
 /// Real: float or double. Index: std::int32_t or std::int64_t.
 /// Triangles are ordered patch, zero face, closing; within a kind by cell in lattice order.
@@ -67,17 +69,24 @@ struct Surface {
 
   detail::Buffer<Real> positions;  ///< 3·n world coordinates, x y z of vertex 0 first.
   detail::Buffer<Index> indices;   ///< 3·m vertex ids, counter-clockwise seen from outside.
-  std::int64_t first_zero_face = 0;  ///< Triangles [first_zero_face, first_closing) are of kind zero_face.
-  std::int64_t first_closing = 0;    ///< Triangles [first_closing, m) are of kind closing.
+  std::int64_t first_zero_face =
+      0;  ///< Triangles [first_zero_face, first_closing) are of kind zero_face.
+  std::int64_t first_closing = 0;  ///< Triangles [first_closing, m) are of kind closing.
   Counts counts;
   Timings timings;
 
-  [[nodiscard]] std::int64_t vertex_count() const { return static_cast<std::int64_t>(positions.size() / 3); }
-  [[nodiscard]] std::int64_t triangle_count() const { return static_cast<std::int64_t>(indices.size() / 3); }
+  [[nodiscard]] std::int64_t vertex_count() const {
+    return static_cast<std::int64_t>(positions.size() / 3);
+  }
+  [[nodiscard]] std::int64_t triangle_count() const {
+    return static_cast<std::int64_t>(indices.size() / 3);
+  }
   /// #V by 3, world units.
   [[nodiscard]] Eigen::Map<const Points> V() const { return {positions.data(), vertex_count(), 3}; }
   /// #F by 3, rows of vertex ids.
-  [[nodiscard]] Eigen::Map<const Triangles> F() const { return {indices.data(), triangle_count(), 3}; }
+  [[nodiscard]] Eigen::Map<const Triangles> F() const {
+    return {indices.data(), triangle_count(), 3};
+  }
   [[nodiscard]] TriangleKind kind(std::int64_t triangle) const {
     if (triangle < first_zero_face) return TriangleKind::patch;
     return triangle < first_closing ? TriangleKind::zero_face : TriangleKind::closing;

@@ -11,7 +11,8 @@
 
 namespace shape3d::zmc {
 
-/// Scalar type of the samples of a volume. Two's complement integers and IEEE 754 reals, native byte order.
+/// Scalar type of the samples of a volume. Two's complement integers and IEEE 754 reals, native
+/// byte order.
 enum class SampleType { int8, uint8, int16, uint16, int32, float32, float64 };
 
 /// "int16", "float32" … as spelled in the enumeration.
@@ -37,7 +38,8 @@ struct VolumeView {
 
   /// strides, with the dense default filled in.
   [[nodiscard]] std::array<std::int64_t, 3> effective_strides() const {
-    if (strides[0] == 0 && strides[1] == 0 && strides[2] == 0) return {1, dims[0], dims[0] * dims[1]};
+    if (strides[0] == 0 && strides[1] == 0 && strides[2] == 0)
+      return {1, dims[0], dims[0] * dims[1]};
     return strides;
   }
   /// World position of lattice coordinates (not necessarily integers).
@@ -99,7 +101,8 @@ template <class T>
                                                       const std::array<std::int64_t, 3>& upper);
 
 /// Checks what every function of this library requires of a view.
-/// @throws std::invalid_argument  naming the field and its value: data is null; a dimension is below
+/// @throws std::invalid_argument  naming the field and its value: data is null; a dimension is
+/// below
 ///         2 (a volume one sample thick has no cells); nx·ny·nz overflows; a spacing is not finite
 ///         and positive; the origin or the direction is not finite; the direction is singular;
 ///         some strides are 0 and others not.

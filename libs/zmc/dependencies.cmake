@@ -1,0 +1,11 @@
+set(SHAPE3D_ZMC_THREADS TBB CACHE STRING "What zmc's threads are: TBB, or STD for std::thread")
+set_property(CACHE SHAPE3D_ZMC_THREADS PROPERTY STRINGS TBB STD)
+
+set(shape3d_zmc_PACKAGES "Eigen3 3.4 NO_MODULE")
+if(SHAPE3D_ZMC_THREADS STREQUAL "TBB")
+  set(shape3d_zmc_PRIVATE_PACKAGES "TBB 2021 CONFIG")
+elseif(SHAPE3D_ZMC_THREADS STREQUAL "STD")
+  set(shape3d_zmc_PRIVATE_PACKAGES "Threads")
+else()
+  message(FATAL_ERROR "SHAPE3D_ZMC_THREADS is '${SHAPE3D_ZMC_THREADS}'; expected TBB or STD")
+endif()
