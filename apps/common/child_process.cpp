@@ -83,7 +83,8 @@ ChildResult run_in_child(const std::function<std::string()>& function) {
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFSIGNALED(status)) {
-    result.error = "ended by signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
+    result.error = "ended by signal " + std::to_string(WTERMSIG(status)) + " (" +
+                   strsignal(WTERMSIG(status)) + ")";
   } else if (bytes.empty() || WEXITSTATUS(status) != 0) {
     result.error = "ended with exit status " + std::to_string(WEXITSTATUS(status));
   } else if (bytes[0] == '+') {

@@ -15,7 +15,8 @@ struct ChildResult {
 /// Runs a function in a forked copy of this process and hands back the string it returns, so that
 /// a library that aborts takes only the copy with it. What the copy prints is discarded.
 ///
-/// Only the calling thread exists in the copy: the function must not use thread pools started before.
+/// Only the calling thread exists in the copy: the function must not use thread pools started
+/// before.
 [[nodiscard]] ChildResult run_in_child(const std::function<std::string()>& function);
 
 }  // namespace shape3d::apps

@@ -9,7 +9,8 @@
 namespace shape3d::apps {
 namespace {
 
-// A signal handler may touch only lock-free atomics and memory that was complete before they were set.
+// A signal handler may touch only lock-free atomics and memory that was complete before they were
+// set.
 enum SlotState : int { kFree, kFilling, kListed };
 
 struct FileSlot {

@@ -6,13 +6,13 @@
 
 namespace shape3d::apps {
 
-/// Makes SIGINT and SIGTERM end the process at once with exit status 130 and 143, after removing the
-/// files and ending the processes listed below; ignores SIGPIPE and SIGXFSZ, so that a closed pipe and a
-/// file size limit are reported as errors of write(). Call once, first thing in main().
+/// Makes SIGINT and SIGTERM end the process at once with exit status 130 and 143, after removing
+/// the files and ending the processes listed below; ignores SIGPIPE and SIGXFSZ, so that a closed
+/// pipe and a file size limit are reported as errors of write(). Call once, first thing in main().
 void install_interrupt_handler();
 
-/// While it lives, an interrupt removes this file. Beyond 64 at a time, or for a path of 4096 bytes or
-/// more, the file is not listed.
+/// While it lives, an interrupt removes this file. Beyond 64 at a time, or for a path of 4096 bytes
+/// or more, the file is not listed.
 class RemoveOnInterrupt {
  public:
   explicit RemoveOnInterrupt(const std::string& path);

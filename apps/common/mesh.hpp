@@ -25,16 +25,17 @@ struct Mesh {
   Triangles F;  ///< #F by 3 rows of V, counter-clockwise seen from outside.
   std::vector<MeshArray> vertex_arrays;    ///< #V values each.
   std::vector<MeshArray> triangle_arrays;  ///< #F values each.
-  std::vector<std::string> comments;       ///< Single lines of text, without the marks of the format.
-  std::string space;                       ///< "LPS", "RAS" or empty when the file does not say.
+  std::vector<std::string> comments;  ///< Single lines of text, without the marks of the format.
+  std::string space;                  ///< "LPS", "RAS" or empty when the file does not say.
 };
 
-/// What the writers and check_mesh() need of a mesh, without a copy: borrowed positions, and vertex ids
-/// of 32 or 64 bits.
+/// What the writers and check_mesh() need of a mesh, without a copy: borrowed positions, and vertex
+/// ids of 32 or 64 bits.
 struct MeshView {
   const double* positions = nullptr;  ///< x y z of vertex 0 first.
   std::int64_t vertex_count = 0;
-  std::variant<const std::int32_t*, const std::int64_t*> indices = static_cast<const std::int32_t*>(nullptr);
+  std::variant<const std::int32_t*, const std::int64_t*> indices =
+      static_cast<const std::int32_t*>(nullptr);
   std::int64_t triangle_count = 0;
   std::vector<MeshArray> const* vertex_arrays = nullptr;
   std::vector<MeshArray> const* triangle_arrays = nullptr;

@@ -7,6 +7,9 @@
 #include <limits>
 #include <numeric>
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
 namespace shape3d::apps {
 namespace {
 
@@ -14,7 +17,9 @@ namespace {
 template <class Index>
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
+  explicit DisjointSets(std::size_t size) : parent_(size) {
+    std::iota(parent_.begin(), parent_.end(), Index{0});
+  }
   Index find(Index a) {
     while (at(a) != a) {
       at(a) = at(at(a));
@@ -37,14 +42,16 @@ class DisjointSets {
   std::vector<Index> parent_;
 };
 
-// Disjoint sets of triangles with the turn of each against its root; tells whether all demands agree.
+// Disjoint sets of triangles with the turn of each against its root; tells whether all demands
+// agree.
 template <class Index>
 class TurnSets {
  public:
   explicit TurnSets(std::size_t size) : parent_(size), turned_(size, 0) {
     std::iota(parent_.begin(), parent_.end(), Index{0});
   }
-  // Demands that a and b are turned differently (or alike); false when that contradicts earlier demands.
+  // Demands that a and b are turned differently (or alike); false when that contradicts earlier
+  // demands.
   bool demand(Index a, Index b, bool different) {
     const auto [root_a, turn_a] = find(a);
     const auto [root_b, turn_b] = find(b);
@@ -83,14 +90,16 @@ class TurnSets {
 class BorderPlanes {
  public:
   explicit BorderPlanes(const zmc::VolumeView& volume)
-      : to_lattice_((volume.direction * volume.spacing.asDiagonal()).inverse()), origin_(volume.origin) {
+      : to_lattice_((volume.direction * volume.spacing.asDiagonal()).inverse()),
+        origin_(volume.origin) {
     // A world coordinate p = o + d·s·i is rounded by a few ε times the largest magnitude involved.
     double extent = volume.origin.cwiseAbs().maxCoeff();
     for (int c = 0; c < 3; ++c) {
       last_[c] = static_cast<double>(volume.dims[static_cast<std::size_t>(c)] - 1);
       extent = std::max(extent, last_[c] * volume.spacing[c]);
     }
-    const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * extent / volume.spacing.minCoeff();
+    const double rounding =
+        16.0 * std::numeric_limits<double>::epsilon() * extent / volume.spacing.minCoeff();
     tolerance_ = std::max(std::ldexp(1.0, -26), rounding);
   }
   [[nodiscard]] unsigned planes_of(const double* position) const {
@@ -117,8 +126,13 @@ template <class Index>
 class Checker {
  public:
   Checker(const MeshView& mesh, const Index* ids, const MeshCheckOptions& options)
-      : mesh_(mesh), ids_(ids), n_(static_cast<std::size_t>(mesh.vertex_count)),
-        m_(static_cast<std::size_t>(mesh.triangle_count)), sets_(n_), edge_count_(n_, 0), flags_(n_, 0),
+      : mesh_(mesh),
+        ids_(ids),
+        n_(static_cast<std::size_t>(mesh.vertex_count)),
+        m_(static_cast<std::size_t>(mesh.triangle_count)),
+        sets_(n_),
+        edge_count_(n_, 0),
+        flags_(n_, 0),
         options_(options) {}
 
   MeshCheck run() {
@@ -126,7 +140,8 @@ class Checker {
     result_.triangles = mesh_.triangle_count;
     bin_halfedges();
     {
-      DisjointSets<Index> corners(3 * m_);  // corners joined across edges of two triangles: the fans
+      DisjointSets<Index> corners(3 *
+                                  m_);  // corners joined across edges of two triangles: the fans
       visit_edges(corners);
       count_fans(corners);
     }
@@ -139,8 +154,8 @@ class Checker {
   }
 
  private:
-  // Edge {lo, hi} of halfedge h = 3t + c, which runs from corner c of triangle t to corner c + 1; it is
-  // stored in the bin of lo.
+  // Edge {lo, hi} of halfedge h = 3t + c, which runs from corner c of triangle t to corner c + 1;
+  // it is stored in the bin of lo.
   struct HalfEdge {
     Index hi, h;
   };
@@ -159,7 +174,8 @@ class Checker {
         ++result_.degenerate_triangles;
         continue;
       }
-      for (std::size_t h = 3 * t; h < 3 * t + 3; ++h) ++bins_[static_cast<std::size_t>(std::min(id(h), id(next(h)))) + 1];
+      for (std::size_t h = 3 * t; h < 3 * t + 3; ++h)
+        ++bins_[static_cast<std::size_t>(std::min(id(h), id(next(h)))) + 1];
     }
     std::partial_sum(bins_.begin(), bins_.end(), bins_.begin());
     halfedges_.resize(bins_[n_]);
@@ -167,7 +183,7 @@ class Checker {
     for (std::size_t t = 0; t < m_; ++t) {
       if (degenerate(t)) continue;
       for (std::size_t h = 3 * t; h < 3 * t + 3; ++h) {
-        const auto [lo, hi] = std::minmax(id(h), id(next(h)));
+        const auto [lo, hi] = std::minmax({id(h), id(next(h))});
         halfedges_[bins_[static_cast<std::size_t>(lo)]++] = {hi, static_cast<Index>(h)};
       }
     }
@@ -175,7 +191,8 @@ class Checker {
     bins_[0] = 0;
   }
 
-  // Calls visit(lo, first, last) with the halfedges of each edge; they have been sorted by hi before.
+  // Calls visit(lo, first, last) with the halfedges of each edge; they have been sorted by hi
+  // before.
   template <class Visitor>
   void for_each_edge(Visitor&& visit) {
     for (std::size_t lo = 0; lo < n_; ++lo) {
@@ -193,7 +210,9 @@ class Checker {
     for (std::size_t lo = 0; lo < n_; ++lo) {
       std::sort(halfedges_.begin() + static_cast<std::ptrdiff_t>(bins_[lo]),
                 halfedges_.begin() + static_cast<std::ptrdiff_t>(bins_[lo + 1]),
-                [](const HalfEdge& a, const HalfEdge& b) { return a.hi != b.hi ? a.hi < b.hi : a.h < b.h; });
+                [](const HalfEdge& a, const HalfEdge& b) {
+                  return a.hi != b.hi ? a.hi < b.hi : a.h < b.h;
+                });
     }
     std::optional<BorderPlanes> border;
     if (options_.volume != nullptr) {
@@ -208,7 +227,8 @@ class Checker {
       ++edge_count_[static_cast<std::size_t>(lo)];
       sets_.unite(lo, hi);
       std::ptrdiff_t forward = 0;  // triangles that run from lo to hi
-      for (const HalfEdge* e = first; e != last; ++e) forward += id(static_cast<std::size_t>(e->h)) == lo;
+      for (const HalfEdge* e = first; e != last; ++e)
+        forward += id(static_cast<std::size_t>(e->h)) == lo;
       balanced = balanced && 2 * forward == count;
       if (count % 2 == 1) {
         ++result_.odd_edges;
@@ -220,10 +240,12 @@ class Checker {
         ++result_.boundary_edges;
         boundary_at_.push_back(lo);
       } else if (count == 2) {
-        const auto h = static_cast<std::size_t>(first[0].h), g = static_cast<std::size_t>(first[1].h);
+        const auto h = static_cast<std::size_t>(first[0].h),
+                   g = static_cast<std::size_t>(first[1].h);
         const bool opposite = forward == 1;
         if (!opposite) ++result_.inconsistent_edges;
-        // Corners at the same vertex: the starts are joined crosswise when the directions are opposite.
+        // Corners at the same vertex: the starts are joined crosswise when the directions are
+        // opposite.
         corners.unite(static_cast<Index>(h), static_cast<Index>(opposite ? next(g) : g));
         corners.unite(static_cast<Index>(next(h)), static_cast<Index>(opposite ? g : next(g)));
       } else {
@@ -238,7 +260,8 @@ class Checker {
   void count_fans(DisjointSets<Index>& corners) {
     std::vector<std::uint8_t> fans(n_, 0);  // 0, 1, or 2 for more
     for (std::size_t h = 0; h < 3 * m_; ++h) {
-      if (degenerate(h / 3) || corners.find(static_cast<Index>(h)) != static_cast<Index>(h)) continue;
+      if (degenerate(h / 3) || corners.find(static_cast<Index>(h)) != static_cast<Index>(h))
+        continue;
       std::uint8_t& count = fans[static_cast<std::size_t>(id(h))];
       if (count < 2) ++count;
     }
@@ -253,8 +276,8 @@ class Checker {
     TurnSets<Index> turns(m_);
     for_each_edge([&](Index lo, const HalfEdge* first, const HalfEdge* last) {
       if (last - first != 2) return;
-      const bool same_direction =
-          (id(static_cast<std::size_t>(first[0].h)) == lo) == (id(static_cast<std::size_t>(first[1].h)) == lo);
+      const bool same_direction = (id(static_cast<std::size_t>(first[0].h)) == lo) ==
+                                  (id(static_cast<std::size_t>(first[1].h)) == lo);
       if (!turns.demand(first[0].h / 3, first[1].h / 3, same_direction)) {
         flags_[static_cast<std::size_t>(lo)] |= kNotOrientable;
       }
@@ -263,7 +286,10 @@ class Checker {
 
   void summarise_components() {
     std::vector<std::uint8_t> used(n_, 0);
-    for (std::size_t h = 0; h < 3 * m_; ++h) used[static_cast<std::size_t>(id(h))] |= degenerate(h / 3) ? 1 : 2;
+    for (std::size_t h = 0; h < 3 * m_; ++h) {
+      std::uint8_t& use = used[static_cast<std::size_t>(id(h))];
+      use = static_cast<std::uint8_t>(use | (degenerate(h / 3) ? 1 : 2));
+    }
     std::vector<Index> number(n_, -1);  // of the component, at its root
     std::vector<MeshComponent> components;
     std::vector<std::uint8_t> flags;
@@ -301,10 +327,11 @@ class Checker {
     }
     result_.components = static_cast<std::int64_t>(components.size());
     if (defined) result_.genus = genus;
-    result_.euler = in_triangles - result_.edges + (result_.triangles - result_.degenerate_triangles);
-    std::stable_sort(components.begin(), components.end(), [](const MeshComponent& a, const MeshComponent& b) {
-      return a.triangles > b.triangles;
-    });
+    result_.euler =
+        in_triangles - result_.edges + (result_.triangles - result_.degenerate_triangles);
+    std::stable_sort(
+        components.begin(), components.end(),
+        [](const MeshComponent& a, const MeshComponent& b) { return a.triangles > b.triangles; });
     components.resize(std::min<std::size_t>(components.size(), 20));
     result_.largest = std::move(components);
   }
@@ -332,13 +359,15 @@ class Checker {
       const auto first = others.begin() + static_cast<std::ptrdiff_t>(start);
       const auto last = others.begin() + static_cast<std::ptrdiff_t>(bins[v]);
       std::sort(first, last);
-      for (auto at = first; at != last && at + 1 != last; ++at) result_.duplicate_triangles += *at == *(at + 1);
+      for (auto at = first; at != last && at + 1 != last; ++at)
+        result_.duplicate_triangles += *at == *(at + 1);
       start = bins[v];
     }
   }
 
   void measure() {
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // near the mesh, so that the volume does not cancel
+    Eigen::Vector3d centre =
+        Eigen::Vector3d::Zero();  // near the mesh, so that the volume does not cancel
     if (n_ > 0) {
       const Eigen::Map<const Mesh::Points> V(mesh_.positions, mesh_.vertex_count, 3);
       centre = 0.5 * (V.colwise().minCoeff() + V.colwise().maxCoeff()).transpose();
@@ -350,8 +379,10 @@ class Checker {
                             c = point(id(3 * t + 2)) - centre;
       const Eigen::Vector3d normal = (b - a).cross(c - a);
       const double length = normal.norm();
-      const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-      if (length <= 16.0 * std::numeric_limits<double>::epsilon() * longest) ++result_.zero_area_triangles;
+      const double longest =
+          std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+      if (length <= 16.0 * std::numeric_limits<double>::epsilon() * longest)
+        ++result_.zero_area_triangles;
       area += length;
       volume += a.dot(b.cross(c));
     }
@@ -359,8 +390,12 @@ class Checker {
     if (result_.oriented) result_.volume = volume / 6.0;
   }
 
-  [[nodiscard]] const double* position(Index v) const { return mesh_.positions + 3 * static_cast<std::size_t>(v); }
-  [[nodiscard]] Eigen::Vector3d point(Index v) const { return Eigen::Map<const Eigen::Vector3d>(position(v)); }
+  [[nodiscard]] const double* position(Index v) const {
+    return mesh_.positions + 3 * static_cast<std::size_t>(v);
+  }
+  [[nodiscard]] Eigen::Vector3d point(Index v) const {
+    return Eigen::Map<const Eigen::Vector3d>(position(v));
+  }
 
   const MeshView& mesh_;
   const Index* ids_;
@@ -384,7 +419,8 @@ std::int64_t count_coincident(const MeshView& mesh) {
   std::vector<Id> slots(size, kEmpty);
   const auto coordinates = [&mesh](std::size_t v) {
     std::array<Real, 3> p;
-    for (std::size_t c = 0; c < 3; ++c) p[c] = static_cast<Real>(mesh.positions[3 * v + c]) + Real(0);  // −0 is 0
+    for (std::size_t c = 0; c < 3; ++c)
+      p[c] = static_cast<Real>(mesh.positions[3 * v + c]) + Real(0);  // −0 is 0
     return p;
   };
   std::int64_t repeated = 0;
@@ -398,7 +434,8 @@ std::int64_t count_coincident(const MeshView& mesh) {
       hash ^= hash >> 32;
     }
     std::size_t at = static_cast<std::size_t>(hash) & (size - 1);
-    while (slots[at] != kEmpty && coordinates(static_cast<std::size_t>(slots[at])) != p) at = (at + 1) & (size - 1);
+    while (slots[at] != kEmpty && coordinates(static_cast<std::size_t>(slots[at])) != p)
+      at = (at + 1) & (size - 1);
     if (slots[at] == kEmpty) {
       slots[at] = static_cast<Id>(v);
     } else {

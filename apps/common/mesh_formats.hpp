@@ -36,7 +36,8 @@ class FaceCollector {
  public:
   explicit FaceCollector(std::vector<std::int32_t>& indices) : indices_(indices) {}
 
-  /// Adds a polygon as a fan round its first vertex; a face of fewer than three vertices is only counted.
+  /// Adds a polygon as a fan round its first vertex; a face of fewer than three vertices is only
+  /// counted.
   template <class Id>
   void add(const Id* ids, std::size_t count) {
     if (count < 3) {
@@ -55,11 +56,13 @@ class FaceCollector {
   void report(MeshFile& file) const {
     file.polygons = polygons_;
     if (polygons_ > 0) {
-      file.warnings.push_back(std::to_string(polygons_) +
-                              " faces of more than three vertices were made into fans of triangles");
+      file.warnings.push_back(
+          std::to_string(polygons_) +
+          " faces of more than three vertices were made into fans of triangles");
     }
     if (short_faces_ > 0) {
-      file.warnings.push_back(std::to_string(short_faces_) + " faces of fewer than three vertices were left out");
+      file.warnings.push_back(std::to_string(short_faces_) +
+                              " faces of fewer than three vertices were left out");
     }
   }
 
@@ -69,8 +72,8 @@ class FaceCollector {
 };
 
 /// Copies parsed numbers into the mesh.
-inline void store(Mesh& mesh, const std::vector<double>& positions, const std::vector<std::int32_t>& indices,
-                  const std::string& name) {
+inline void store(Mesh& mesh, const std::vector<double>& positions,
+                  const std::vector<std::int32_t>& indices, const std::string& name) {
   const auto vertices = static_cast<std::int64_t>(positions.size() / 3);
   const auto triangles = static_cast<std::int64_t>(indices.size() / 3);
   if (vertices > kMaxCount || triangles > kMaxCount) {
@@ -97,7 +100,9 @@ inline std::vector<std::string> comment_lines(const MeshView& mesh) {
     std::replace(line.begin(), line.end(), '\n', ' ');
     std::replace(line.begin(), line.end(), '\r', ' ');
   }
-  const auto states_space = [](const std::string& line) { return line.find("SPACE=") != std::string::npos; };
+  const auto states_space = [](const std::string& line) {
+    return line.find("SPACE=") != std::string::npos;
+  };
   lines.erase(std::remove_if(lines.begin(), lines.end(), states_space), lines.end());
   if (!mesh.space.empty()) lines.push_back("SPACE=" + mesh.space);
   return lines;

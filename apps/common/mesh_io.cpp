@@ -45,9 +45,11 @@ struct Bytes {
 
 Bytes read_file(const std::string& path) {
   const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.get() < 0) throw FileError(path, std::string("cannot be opened: ") + std::strerror(errno));
+  if (file.get() < 0)
+    throw FileError(path, std::string("cannot be opened: ") + std::strerror(errno));
   struct stat status {};
-  if (fstat(file.get(), &status) != 0) throw FileError(path, std::string("cannot be read: ") + std::strerror(errno));
+  if (fstat(file.get(), &status) != 0)
+    throw FileError(path, std::string("cannot be read: ") + std::strerror(errno));
   if (S_ISDIR(status.st_mode)) throw FileError(path, "is a directory, expected a mesh file");
   if (!S_ISREG(status.st_mode)) throw FileError(path, "is not a regular file");
   Bytes bytes;
@@ -69,11 +71,16 @@ Bytes read_file(const std::string& path) {
 
 std::string_view to_string(MeshFormat format) {
   switch (format) {
-    case MeshFormat::off: return "OFF";
-    case MeshFormat::obj: return "OBJ";
-    case MeshFormat::ply: return "PLY";
-    case MeshFormat::stl: return "STL";
-    case MeshFormat::vtp: return "VTP";
+    case MeshFormat::off:
+      return "OFF";
+    case MeshFormat::obj:
+      return "OBJ";
+    case MeshFormat::ply:
+      return "PLY";
+    case MeshFormat::stl:
+      return "STL";
+    case MeshFormat::vtp:
+      return "VTP";
   }
   return "unknown";
 }
@@ -90,7 +97,8 @@ std::optional<MeshFormat> mesh_format(const std::string& path) {
 
 std::string unknown_mesh_extension(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();
-  return (extension.empty() ? std::string("has no extension") : "unknown extension '" + extension + "'") +
+  return (extension.empty() ? std::string("has no extension")
+                            : "unknown extension '" + extension + "'") +
          ", expected .ply, .obj, .off, .stl or .vtp";
 }
 
@@ -104,22 +112,32 @@ MeshFile read_mesh(const std::string& path) {
 MeshFile parse_mesh(std::string_view bytes, MeshFormat format, const std::string& name) {
   if (bytes.empty()) throw FileError(name, "is empty, expected a mesh");
   switch (format) {
-    case MeshFormat::off: return formats::parse_off(bytes, name);
-    case MeshFormat::obj: return formats::parse_obj(bytes, name);
-    case MeshFormat::ply: return formats::parse_ply(bytes, name);
-    case MeshFormat::stl: return formats::parse_stl(bytes, name);
-    case MeshFormat::vtp: return formats::parse_vtp(bytes, name);
+    case MeshFormat::off:
+      return formats::parse_off(bytes, name);
+    case MeshFormat::obj:
+      return formats::parse_obj(bytes, name);
+    case MeshFormat::ply:
+      return formats::parse_ply(bytes, name);
+    case MeshFormat::stl:
+      return formats::parse_stl(bytes, name);
+    case MeshFormat::vtp:
+      return formats::parse_vtp(bytes, name);
   }
   throw FileError(name, "unknown mesh format");
 }
 
 void write_mesh(OutputFile& file, MeshFormat format, const MeshView& mesh, MeshEncoding encoding) {
   switch (format) {
-    case MeshFormat::off: return formats::write_off(file, mesh);
-    case MeshFormat::obj: return formats::write_obj(file, mesh);
-    case MeshFormat::ply: return formats::write_ply(file, mesh, encoding);
-    case MeshFormat::stl: return formats::write_stl(file, mesh, encoding);
-    case MeshFormat::vtp: return formats::write_vtp(file, mesh);
+    case MeshFormat::off:
+      return formats::write_off(file, mesh);
+    case MeshFormat::obj:
+      return formats::write_obj(file, mesh);
+    case MeshFormat::ply:
+      return formats::write_ply(file, mesh, encoding);
+    case MeshFormat::stl:
+      return formats::write_stl(file, mesh, encoding);
+    case MeshFormat::vtp:
+      return formats::write_vtp(file, mesh);
   }
 }
 

@@ -7,10 +7,11 @@ namespace {
 // Statements that say nothing about vertices and faces.
 bool is_ignored(std::string_view keyword) {
   static constexpr std::string_view kIgnored[] = {
-      "vt",   "vn",   "vp",   "g",     "o",      "s",     "mg",     "usemtl",  "mtllib", "maplib",
-      "l",    "p",    "bevel", "lod",  "c_interp", "d_interp", "usemap", "shadow_obj", "trace_obj", "cstype",
-      "deg",  "bmat", "step", "curv",  "curv2",  "surf",  "parm",   "trim",    "hole",   "scrv",
-      "sp",   "end",  "con",  "ctech", "stech",  "res",   "bzp",    "bsp",     "cdc",    "cdp"};
+      "vt",     "vn",         "vp",        "g",      "o",     "s",    "mg",       "usemtl",
+      "mtllib", "maplib",     "l",         "p",      "bevel", "lod",  "c_interp", "d_interp",
+      "usemap", "shadow_obj", "trace_obj", "cstype", "deg",   "bmat", "step",     "curv",
+      "curv2",  "surf",       "parm",      "trim",   "hole",  "scrv", "sp",       "end",
+      "con",    "ctech",      "stech",     "res",    "bzp",   "bsp",  "cdc",      "cdp"};
   return std::find(std::begin(kIgnored), std::end(kIgnored), keyword) != std::end(kIgnored);
 }
 
@@ -40,9 +41,12 @@ class ObjParser {
       }
     }
     if (highest_ >= vertices_) {
-      const auto line = 1 + std::count(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(after_highest_), '\n');
-      throw FileError(scanner_.name(), "line " + std::to_string(line) + ": expected a vertex index from 1 to " +
-                                           std::to_string(vertices_) + ", found " + std::to_string(highest_ + 1));
+      const auto line =
+          1 + std::count(bytes_.begin(),
+                         bytes_.begin() + static_cast<std::ptrdiff_t>(after_highest_), '\n');
+      throw FileError(scanner_.name(),
+                      "line " + std::to_string(line) + ": expected a vertex index from 1 to " +
+                          std::to_string(vertices_) + ", found " + std::to_string(highest_ + 1));
     }
     collector_.report(file);
     find_space(file.mesh);
@@ -77,8 +81,8 @@ class ObjParser {
       std::int64_t id = 0;
       if (!TextScanner::parse(corner, id)) scanner_.fail("a vertex index", corner);
       if (id == 0 || id < -vertices_ || id > kMaxCount) {
-        scanner_.fail("expected a vertex index from 1 on, or from -1 to " + std::to_string(-vertices_) + ", found " +
-                      std::to_string(id));
+        scanner_.fail("expected a vertex index from 1 on, or from -1 to " +
+                      std::to_string(-vertices_) + ", found " + std::to_string(id));
       }
       id = id > 0 ? id - 1 : vertices_ + id;
       if (id >= vertices_ && id > highest_) {
@@ -104,12 +108,14 @@ class ObjParser {
 
 }  // namespace
 
-MeshFile parse_obj(std::string_view bytes, const std::string& name) { return ObjParser(bytes, name).parse(); }
+MeshFile parse_obj(std::string_view bytes, const std::string& name) {
+  return ObjParser(bytes, name).parse();
+}
 
 void write_obj(OutputFile& file, const MeshView& mesh) {
   for (const std::string& line : comment_lines(mesh)) file.write("# " + line + "\n");
-  file.write("# " + std::to_string(mesh.vertex_count) + " vertices, " + std::to_string(mesh.triangle_count) +
-             " triangles\n");
+  file.write("# " + std::to_string(mesh.vertex_count) + " vertices, " +
+             std::to_string(mesh.triangle_count) + " triangles\n");
   for (std::int64_t v = 0; v < mesh.vertex_count; ++v) {
     file.write_char('v');
     for (int c = 0; c < 3; ++c) {

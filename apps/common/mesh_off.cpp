@@ -4,8 +4,8 @@
 namespace shape3d::apps::formats {
 namespace {
 
-// The header key: [ST][C][N][4][n]OFF. Vertices of the plain kind are three numbers in free format; with a
-// prefix the rest of a vertex's line holds what is ignored here.
+// The header key: [ST][C][N][4][n]OFF. Vertices of the plain kind are three numbers in free format;
+// with a prefix the rest of a vertex's line holds what is ignored here.
 struct OffHeader {
   bool extra_on_vertex_lines = false;
   std::string_view counts_on_key;  // "8" of "OFF8 6 0", which some programs write
@@ -18,7 +18,8 @@ OffHeader read_key(TextScanner& scanner) {
   const std::string_view prefix = key.substr(0, off);
   for (const char c : prefix) {
     if (c == '4' || c == 'n') scanner.fail("vertices of three coordinates (OFF)", key);
-    if (std::string_view("STCN").find(c) == std::string_view::npos) scanner.fail("the key OFF", key);
+    if (std::string_view("STCN").find(c) == std::string_view::npos)
+      scanner.fail("the key OFF", key);
   }
   OffHeader header;
   header.extra_on_vertex_lines = !prefix.empty();
@@ -31,7 +32,8 @@ std::int64_t read_count(TextScanner& scanner, std::string_view what, std::size_t
   const auto most = static_cast<std::int64_t>(scanner.remaining() / bytes_each) + 1;
   if (count < 0 || count > most) {
     scanner.fail(std::string(what) + " is " + std::to_string(count) + ", but the " +
-                 std::to_string(scanner.remaining()) + " bytes that follow hold at most " + std::to_string(most));
+                 std::to_string(scanner.remaining()) + " bytes that follow hold at most " +
+                 std::to_string(most));
   }
   if (count > kMaxCount) scanner.fail(std::string(what) + " is over 2147483647");
   return count;
@@ -61,7 +63,8 @@ MeshFile parse_off(std::string_view bytes, const std::string& name) {
   const OffHeader header = read_key(scanner);
   std::int64_t vertices = 0;
   if (header.counts_on_key.empty()) {
-    if (scanner.skip_blanks() && scanner.remaining() >= 6 && bytes.substr(scanner.offset(), 6) == "BINARY") {
+    if (scanner.skip_blanks() && scanner.remaining() >= 6 &&
+        bytes.substr(scanner.offset(), 6) == "BINARY") {
       scanner.fail("binary OFF is not supported, expected text");
     }
     vertices = read_count(scanner, "the number of vertices", 6);  // "0 0 0\n"
@@ -74,7 +77,8 @@ MeshFile parse_off(std::string_view bytes, const std::string& name) {
 
   std::vector<double> positions(static_cast<std::size_t>(3 * vertices));
   for (std::int64_t v = 0; v < vertices; ++v) {
-    for (int c = 0; c < 3; ++c) positions[static_cast<std::size_t>(3 * v + c)] = scanner.number("a coordinate");
+    for (int c = 0; c < 3; ++c)
+      positions[static_cast<std::size_t>(3 * v + c)] = scanner.number("a coordinate");
     if (header.extra_on_vertex_lines) scanner.rest_of_line();
   }
   std::vector<std::int32_t> indices;
@@ -90,8 +94,8 @@ MeshFile parse_off(std::string_view bytes, const std::string& name) {
     for (std::int64_t i = 0; i < corners; ++i) {
       const std::int64_t id = scanner.integer("a vertex index");
       if (id < 0 || id >= vertices) {
-        scanner.fail("expected a vertex index from 0 to " + std::to_string(vertices - 1) + ", found " +
-                     std::to_string(id));
+        scanner.fail("expected a vertex index from 0 to " + std::to_string(vertices - 1) +
+                     ", found " + std::to_string(id));
       }
       polygon.push_back(id);
     }
@@ -100,8 +104,8 @@ MeshFile parse_off(std::string_view bytes, const std::string& name) {
   }
   collector.report(file);
   if (scanner.skip_space()) {
-    file.warnings.push_back("text after the last face, from line " + std::to_string(scanner.line()) +
-                            " on, was not read");
+    file.warnings.push_back("text after the last face, from line " +
+                            std::to_string(scanner.line()) + " on, was not read");
   }
   store(file.mesh, positions, indices, name);
   return file;

@@ -11,32 +11,40 @@ enum class Scalar { int8, uint8, int16, uint16, int32, uint32, float32, float64 
 std::size_t size_of(Scalar type) {
   switch (type) {
     case Scalar::int8:
-    case Scalar::uint8: return 1;
+    case Scalar::uint8:
+      return 1;
     case Scalar::int16:
-    case Scalar::uint16: return 2;
+    case Scalar::uint16:
+      return 2;
     case Scalar::int32:
     case Scalar::uint32:
-    case Scalar::float32: return 4;
-    case Scalar::float64: return 8;
+    case Scalar::float32:
+      return 4;
+    case Scalar::float64:
+      return 8;
   }
   return 0;
 }
 
 std::optional<Scalar> scalar_named(std::string_view name) {
   static constexpr std::pair<std::string_view, Scalar> kNames[] = {
-      {"char", Scalar::int8},    {"int8", Scalar::int8},       {"uchar", Scalar::uint8},   {"uint8", Scalar::uint8},
-      {"short", Scalar::int16},  {"int16", Scalar::int16},     {"ushort", Scalar::uint16}, {"uint16", Scalar::uint16},
-      {"int", Scalar::int32},    {"int32", Scalar::int32},     {"uint", Scalar::uint32},   {"uint32", Scalar::uint32},
-      {"float", Scalar::float32}, {"float32", Scalar::float32}, {"double", Scalar::float64}, {"float64", Scalar::float64}};
+      {"char", Scalar::int8},      {"int8", Scalar::int8},       {"uchar", Scalar::uint8},
+      {"uint8", Scalar::uint8},    {"short", Scalar::int16},     {"int16", Scalar::int16},
+      {"ushort", Scalar::uint16},  {"uint16", Scalar::uint16},   {"int", Scalar::int32},
+      {"int32", Scalar::int32},    {"uint", Scalar::uint32},     {"uint32", Scalar::uint32},
+      {"float", Scalar::float32},  {"float32", Scalar::float32}, {"double", Scalar::float64},
+      {"float64", Scalar::float64}};
   for (const auto& [text, type] : kNames) {
     if (text == name) return type;
   }
   return std::nullopt;
 }
 
+// Without decimals where it has none.
 std::string plain(double number) {
-  std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+  std::array<char, 400> text;
+  const auto format = number == std::floor(number) ? std::chars_format::fixed : std::chars_format::general;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number, format).ptr};
 }
 
 struct Property {
@@ -78,14 +86,22 @@ T load(const char* at) {
 template <bool kSwap>
 double load_scalar(const char* at, Scalar type) {
   switch (type) {
-    case Scalar::int8: return load<std::int8_t, kSwap>(at);
-    case Scalar::uint8: return load<std::uint8_t, kSwap>(at);
-    case Scalar::int16: return load<std::int16_t, kSwap>(at);
-    case Scalar::uint16: return load<std::uint16_t, kSwap>(at);
-    case Scalar::int32: return load<std::int32_t, kSwap>(at);
-    case Scalar::uint32: return load<std::uint32_t, kSwap>(at);
-    case Scalar::float32: return load<float, kSwap>(at);
-    case Scalar::float64: return load<double, kSwap>(at);
+    case Scalar::int8:
+      return load<std::int8_t, kSwap>(at);
+    case Scalar::uint8:
+      return load<std::uint8_t, kSwap>(at);
+    case Scalar::int16:
+      return load<std::int16_t, kSwap>(at);
+    case Scalar::uint16:
+      return load<std::uint16_t, kSwap>(at);
+    case Scalar::int32:
+      return load<std::int32_t, kSwap>(at);
+    case Scalar::uint32:
+      return load<std::uint32_t, kSwap>(at);
+    case Scalar::float32:
+      return load<float, kSwap>(at);
+    case Scalar::float64:
+      return load<double, kSwap>(at);
   }
   return 0.0;
 }
@@ -98,8 +114,8 @@ constexpr bool host_is_little() {
 #endif
 }
 
-// Values of the body one after another, from text or bytes; the same interface, so that the elements are
-// parsed by one template.
+// Values of the body one after another, from text or bytes; the same interface, so that the
+// elements are parsed by one template.
 class TextBody {
  public:
   TextBody(TextScanner& scanner) : scanner_(scanner) {}
@@ -129,13 +145,16 @@ class BinaryBody {
   [[noreturn]] void fail(const std::string& sentence) const {
     throw FileError(name_, "byte " + std::to_string(at_) + ": " + sentence);
   }
-  [[nodiscard]] std::size_t room_for(Scalar type) const { return (bytes_.size() - at_) / size_of(type); }
+  [[nodiscard]] std::size_t room_for(Scalar type) const {
+    return (bytes_.size() - at_) / size_of(type);
+  }
   [[nodiscard]] std::size_t remaining() const { return bytes_.size() - at_; }
 
  private:
   const char* take(const Property& property, Scalar type) {
     const std::size_t size = size_of(type);
-    if (bytes_.size() - at_ < size) fail("expected " + property.name + ", found the end of the file");
+    if (bytes_.size() - at_ < size)
+      fail("expected " + property.name + ", found the end of the file");
     const char* at = bytes_.data() + at_;
     at_ += size;
     return at;
@@ -148,7 +167,8 @@ class BinaryBody {
 
 class PlyParser {
  public:
-  PlyParser(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name), collector_(indices_) {}
+  PlyParser(std::string_view bytes, const std::string& name)
+      : bytes_(bytes), name_(name), collector_(indices_) {}
 
   MeshFile parse() {
     TextScanner scanner(bytes_, name_, '\0');
@@ -163,8 +183,14 @@ class PlyParser {
         read_body(body);
         break;
       }
-      case Encoding::little: file_.encoding = "binary little endian"; read_binary<!host_is_little()>(scanner); break;
-      case Encoding::big: file_.encoding = "binary big endian"; read_binary<host_is_little()>(scanner); break;
+      case Encoding::little:
+        file_.encoding = "binary little endian";
+        read_binary<!host_is_little()>(scanner);
+        break;
+      case Encoding::big:
+        file_.encoding = "binary big endian";
+        read_binary<host_is_little()>(scanner);
+        break;
     }
     collector_.report(file_);
     store(file_.mesh, positions_, indices_, name_);
@@ -192,7 +218,9 @@ class PlyParser {
         Element element;
         element.name = scanner.word("the name of an element");
         element.count = scanner.integer("the number of elements");
-        if (element.count < 0) scanner.fail("element " + element.name + " has the count " + std::to_string(element.count));
+        if (element.count < 0)
+          scanner.fail("element " + element.name + " has the count " +
+                       std::to_string(element.count));
         header_.elements.push_back(std::move(element));
         scanner.rest_of_line();
       } else if (keyword == "property") {
@@ -251,20 +279,22 @@ class PlyParser {
       for (const Property& property : element.properties) {
         each += header_.encoding == Encoding::ascii
                     ? 2.0
-                    : static_cast<double>(size_of(property.is_list ? property.count_type : property.type));
+                    : static_cast<double>(
+                          size_of(property.is_list ? property.count_type : property.type));
       }
       if (element.properties.empty() && element.count > 0) {
         throw FileError(name_, "element " + element.name + " has no properties");
       }
       if (element.count > kMaxCount) {
-        throw FileError(name_, "the header announces " + std::to_string(element.count) + " elements " + element.name +
-                                   ", expected at most 2147483647");
+        throw FileError(name_, "the header announces " + std::to_string(element.count) +
+                                   " elements " + element.name + ", expected at most 2147483647");
       }
       least += each * static_cast<double>(element.count);
     }
     if (least > static_cast<double>(room) + 1.0) {  // the last line may lack its end
       throw FileError(name_, "the header announces " + plain(least) +
-                                 " bytes or more of data, but " + std::to_string(room) + " follow it");
+                                 " bytes or more of data, but " + std::to_string(room) +
+                                 " follow it");
     }
   }
 
@@ -273,7 +303,8 @@ class PlyParser {
     BinaryBody<kSwap> body(bytes_, scanner.offset(), name_);
     read_body(body);
     if (body.remaining() > 0) {
-      file_.warnings.push_back(std::to_string(body.remaining()) + " bytes after the last element were not read");
+      file_.warnings.push_back(std::to_string(body.remaining()) +
+                               " bytes after the last element were not read");
     }
   }
 
@@ -318,10 +349,13 @@ class PlyParser {
   void read_vertices(const Element& element, Body& body) {
     std::vector<int> coordinate(element.properties.size(), -1);
     for (int c = 0; c < 3; ++c) {
-      const int index = element.find(std::string_view("xyz").substr(static_cast<std::size_t>(c), 1));
-      if (index < 0) throw FileError(name_, std::string("element vertex has no property ") + "xyz"[c]);
+      const int index =
+          element.find(std::string_view("xyz").substr(static_cast<std::size_t>(c), 1));
+      if (index < 0)
+        throw FileError(name_, std::string("element vertex has no property ") + "xyz"[c]);
       if (element.properties[static_cast<std::size_t>(index)].is_list) {
-        throw FileError(name_, std::string("property ") + "xyz"[c] + " of element vertex is a list, expected a number");
+        throw FileError(name_, std::string("property ") + "xyz"[c] +
+                                   " of element vertex is a list, expected a number");
       }
       coordinate[static_cast<std::size_t>(index)] = c;
     }
@@ -335,7 +369,8 @@ class PlyParser {
         }
         const double value = body.next(property, property.type);
         if (!std::isfinite(value)) {
-          body.fail("expected a finite coordinate " + property.name + " of vertex " + std::to_string(v));
+          body.fail("expected a finite coordinate " + property.name + " of vertex " +
+                    std::to_string(v));
         }
         positions_[static_cast<std::size_t>(3 * v + coordinate[i])] = value;
       }
@@ -364,8 +399,8 @@ class PlyParser {
         for (std::int64_t c = 0; c < corners; ++c) {
           const double id = body.next(property, property.type);
           if (!(id >= 0.0 && id < static_cast<double>(vertices)) || id != std::floor(id)) {
-            body.fail("face " + std::to_string(f) + ": expected a vertex index from 0 to " + std::to_string(vertices - 1) +
-                      ", found " + plain(id));
+            body.fail("face " + std::to_string(f) + ": expected a vertex index from 0 to " +
+                      std::to_string(vertices - 1) + ", found " + plain(id));
           }
           polygon.push_back(static_cast<std::int64_t>(id));
         }
@@ -430,18 +465,23 @@ void write_ascii_body(OutputFile& file, const MeshView& mesh) {
 
 }  // namespace
 
-MeshFile parse_ply(std::string_view bytes, const std::string& name) { return PlyParser(bytes, name).parse(); }
+MeshFile parse_ply(std::string_view bytes, const std::string& name) {
+  return PlyParser(bytes, name).parse();
+}
 
 void write_ply(OutputFile& file, const MeshView& mesh, MeshEncoding encoding) {
   constexpr std::int64_t kMaxIds = std::int64_t{1} << 32;
   if (mesh.vertex_count > kMaxIds) {
     throw FileError(file.path(), "PLY numbers at most 4294967296 vertices, the mesh has " +
-                                     std::to_string(mesh.vertex_count) + "; OBJ, OFF and VTP hold more");
+                                     std::to_string(mesh.vertex_count) +
+                                     "; OBJ, OFF and VTP hold more");
   }
   const bool big = encoding == MeshEncoding::binary_big_endian ||
                    (encoding == MeshEncoding::binary && !host_is_little());
   file.write("ply\nformat ");
-  file.write(encoding == MeshEncoding::ascii ? "ascii" : big ? "binary_big_endian" : "binary_little_endian");
+  file.write(encoding == MeshEncoding::ascii ? "ascii"
+             : big                           ? "binary_big_endian"
+                                             : "binary_little_endian");
   file.write(" 1.0\n");
   for (const std::string& line : comment_lines(mesh)) file.write("comment " + line + "\n");
   file.write("element vertex " + std::to_string(mesh.vertex_count) +

@@ -1,23 +1,18 @@
 #include <charconv>
 
-#include <vtkAOSDataArrayTemplate.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkDoubleArray.h>
+#include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
-#include <vtkTypeInt32Array.h>
-#include <vtkTypeInt64Array.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataReader.h>
-#include <vtkXMLPolyDataWriter.h>
 
 #include "mesh_formats.hpp"
-#include "vtk_errors.hpp"
+#include "vtk_mesh.hpp"
+#include "vtk_messages.hpp"
 
 namespace shape3d::apps::formats {
 namespace {
@@ -31,8 +26,9 @@ void check_counts(std::string_view bytes, const std::string& name) {
     std::string_view attribute;
     double bytes_each;  // the least one takes: coordinates of 12 bytes, a cell's offset and one id
   };
-  for (const Count& count : {Count{"NumberOfPoints", 12.0}, Count{"NumberOfPolys", 5.0}, Count{"NumberOfStrips", 5.0},
-                             Count{"NumberOfLines", 5.0}, Count{"NumberOfVerts", 5.0}}) {
+  for (const Count& count :
+       {Count{"NumberOfPoints", 12.0}, Count{"NumberOfPolys", 5.0}, Count{"NumberOfStrips", 5.0},
+        Count{"NumberOfLines", 5.0}, Count{"NumberOfVerts", 5.0}}) {
     for (std::size_t at = bytes.find(count.attribute); at != std::string_view::npos;
          at = bytes.find(count.attribute, at + 1)) {
       std::size_t value_at = bytes.find_first_not_of(" \t\r\n", at + count.attribute.size());
@@ -43,9 +39,11 @@ void check_counts(std::string_view bytes, const std::string& name) {
       const char* start = bytes.data() + value_at + 1;
       const auto [end, error] = std::from_chars(start, bytes.data() + bytes.size(), value);
       if (error == std::errc::result_out_of_range || value < 0 || value > kMaxCount ||
-          static_cast<double>(value) * count.bytes_each > kBestCompression * static_cast<double>(bytes.size())) {
-        throw FileError(name, "byte " + std::to_string(value_at + 1) + ": " + std::string(count.attribute) + " is " +
-                                  std::string(start, end) + ", more than " + std::to_string(bytes.size()) +
+          static_cast<double>(value) * count.bytes_each >
+              kBestCompression * static_cast<double>(bytes.size())) {
+        throw FileError(name, "byte " + std::to_string(value_at + 1) + ": " +
+                                  std::string(count.attribute) + " is " + std::string(start, end) +
+                                  ", more than " + std::to_string(bytes.size()) +
                                   " bytes can hold");
       }
     }
@@ -63,7 +61,8 @@ std::vector<MeshArray> read_arrays(vtkDataSetAttributes* data, vtkIdType tuples)
     MeshArray copy;
     copy.name = array->GetName();
     std::vector<double> values(static_cast<std::size_t>(tuples));
-    for (vtkIdType t = 0; t < tuples; ++t) values[static_cast<std::size_t>(t)] = array->GetComponent(t, 0);
+    for (vtkIdType t = 0; t < tuples; ++t)
+      values[static_cast<std::size_t>(t)] = array->GetComponent(t, 0);
     copy.values = std::move(values);
     arrays.push_back(std::move(copy));
   }
@@ -85,65 +84,36 @@ void read_faces(vtkPolyData* data, const std::string& name, MeshFile& file) {
   vtkCellArray* polys = data->GetPolys();
   const vtkIdType points = data->GetNumberOfPoints();
   const vtkIdType cells = polys->GetNumberOfCells();
+  vtkDataArray* offsets = polys->GetOffsetsArray();
   const vtkIdType ids = polys->GetNumberOfConnectivityIds();
   std::vector<std::int32_t> indices;
   FaceCollector collector(indices);
   for (vtkIdType cell = 0; cell < cells; ++cell) {
-    const vtkIdType begin = polys->GetOffset(cell), end = polys->GetOffset(cell + 1);
+    const auto begin = static_cast<vtkIdType>(offsets->GetComponent(cell, 0));
+    const auto end = static_cast<vtkIdType>(offsets->GetComponent(cell + 1, 0));
     if (begin < 0 || end < begin || end > ids) {
-      throw FileError(name, "the offsets of polygon " + std::to_string(cell) + " are " + std::to_string(begin) + " and " +
-                                std::to_string(end) + ", expected to rise and to stay within " + std::to_string(ids));
+      throw FileError(name, "the offsets of polygon " + std::to_string(cell) + " are " +
+                                std::to_string(begin) + " and " + std::to_string(end) +
+                                ", expected to rise and to stay within " + std::to_string(ids));
     }
     vtkIdType size = 0;
     const vtkIdType* corners = nullptr;
     polys->GetCellAtId(cell, size, corners);
     for (vtkIdType c = 0; c < size; ++c) {
       if (corners[c] < 0 || corners[c] >= points) {
-        throw FileError(name, "polygon " + std::to_string(cell) + ": expected a point index from 0 to " +
-                                  std::to_string(points - 1) + ", found " + std::to_string(corners[c]));
+        throw FileError(name,
+                        "polygon " + std::to_string(cell) + ": expected a point index from 0 to " +
+                            std::to_string(points - 1) + ", found " + std::to_string(corners[c]));
       }
     }
     collector.add(corners, static_cast<std::size_t>(size));
   }
   collector.report(file);
-  file.mesh.F = Eigen::Map<const Mesh::Triangles>(indices.data(), static_cast<Eigen::Index>(indices.size() / 3), 3);
+  file.mesh.F = Eigen::Map<const Mesh::Triangles>(indices.data(),
+                                                  static_cast<Eigen::Index>(indices.size() / 3), 3);
   // A polygon that became several triangles, or none, would shift the cell arrays.
   if (file.mesh.F.rows() == cells && file.polygons == 0 && data->GetNumberOfCells() == cells) {
     file.mesh.triangle_arrays = read_arrays(data->GetCellData(), cells);
-  }
-}
-
-template <class VtkArray, class Value>
-vtkSmartPointer<VtkArray> borrow(const Value* values, std::int64_t count, int components) {
-  auto array = vtkSmartPointer<VtkArray>::New();
-  array->SetNumberOfComponents(components);
-  // VTK's interface has no const; the writer reads only, and save = 1 leaves the memory to its owner.
-  array->SetArray(const_cast<Value*>(values), count, 1);
-  return array;
-}
-
-template <class VtkArray, class Index>
-void set_polygons(vtkPolyData* data, const Index* indices, std::int64_t triangles) {
-  vtkNew<VtkArray> offsets;
-  offsets->SetNumberOfValues(triangles + 1);
-  for (std::int64_t t = 0; t <= triangles; ++t) offsets->SetValue(t, static_cast<Index>(3 * t));
-  vtkNew<vtkCellArray> cells;
-  cells->SetData(offsets, borrow<VtkArray>(indices, 3 * triangles, 1));
-  data->SetPolys(cells);
-}
-
-void add_arrays(vtkDataSetAttributes* data, const std::vector<MeshArray>* arrays) {
-  if (arrays == nullptr) return;
-  for (const MeshArray& array : *arrays) {
-    vtkSmartPointer<vtkDataArray> copy;
-    if (const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&array.values)) {
-      copy = borrow<vtkUnsignedCharArray>(bytes->data(), static_cast<std::int64_t>(bytes->size()), 1);
-    } else {
-      const auto& numbers = std::get<std::vector<double>>(array.values);
-      copy = borrow<vtkDoubleArray>(numbers.data(), static_cast<std::int64_t>(numbers.size()), 1);
-    }
-    copy->SetName(array.name.c_str());
-    data->AddArray(copy);
   }
 }
 
@@ -151,20 +121,21 @@ void add_arrays(vtkDataSetAttributes* data, const std::vector<MeshArray>* arrays
 
 MeshFile parse_vtp(std::string_view bytes, const std::string& name) {
   const std::string_view head = bytes.substr(0, std::min<std::size_t>(bytes.size(), 4096));
-  if (head.find("<VTKFile") == std::string_view::npos || head.find("PolyData") == std::string_view::npos) {
-    throw FileError(name, "expected a VTK XML file of type PolyData (<VTKFile type=\"PolyData\" …>)");
+  if (head.find("<VTKFile") == std::string_view::npos ||
+      head.find("PolyData") == std::string_view::npos) {
+    throw FileError(name,
+                    "expected a VTK XML file of type PolyData (<VTKFile type=\"PolyData\" …>)");
   }
   check_counts(bytes, name);
-  VtkErrors errors;
+  const VtkMessages messages;
   vtkNew<vtkXMLPolyDataReader> reader;
-  errors.observe(reader);
-  reader->SetReaderErrorObserver(errors.command());
-  reader->SetParserErrorObserver(errors.command());
   reader->ReadFromInputStringOn();
   reader->SetInputString(std::string(bytes));
   reader->Update();
-  if (errors.any() || reader->GetErrorCode() != 0) {
-    throw FileError(name, "is not a whole VTK PolyData file: " + (errors.any() ? errors.first() : "unknown error"));
+  if (const std::string error = messages.first_error();
+      !error.empty() || reader->GetErrorCode() != 0) {
+    throw FileError(
+        name, "is not a whole VTK PolyData file: " + (error.empty() ? "unknown error" : error));
   }
   vtkPolyData* data = reader->GetOutput();
   MeshFile file;
@@ -179,7 +150,8 @@ MeshFile parse_vtp(std::string_view bytes, const std::string& name) {
     find_space(file.mesh);
   }
   if (const vtkIdType strips = data->GetNumberOfStrips(); strips > 0) {
-    throw FileError(name, "holds " + std::to_string(strips) + " triangle strips, expected polygons");
+    throw FileError(name,
+                    "holds " + std::to_string(strips) + " triangle strips, expected polygons");
   }
   if (const vtkIdType others = data->GetNumberOfLines() + data->GetNumberOfVerts(); others > 0) {
     file.warnings.push_back(std::to_string(others) + " lines and points were not read");
@@ -188,40 +160,14 @@ MeshFile parse_vtp(std::string_view bytes, const std::string& name) {
 }
 
 void write_vtp(OutputFile& file, const MeshView& mesh) {
-  vtkNew<vtkPolyData> data;
-  vtkNew<vtkPoints> points;
-  points->SetData(borrow<vtkDoubleArray>(mesh.positions, 3 * mesh.vertex_count, 3));
-  data->SetPoints(points);
-  if (const auto* narrow = std::get_if<const std::int32_t*>(&mesh.indices);
-      narrow != nullptr && 3 * mesh.triangle_count <= kMaxCount) {
-    set_polygons<vtkTypeInt32Array>(data, *narrow, mesh.triangle_count);
-  } else if (narrow != nullptr) {
-    const std::vector<std::int64_t> wide(*narrow, *narrow + 3 * mesh.triangle_count);
-    set_polygons<vtkTypeInt64Array>(data, wide.data(), mesh.triangle_count);
-  } else {
-    set_polygons<vtkTypeInt64Array>(data, std::get<const std::int64_t*>(mesh.indices), mesh.triangle_count);
-  }
-  add_arrays(data->GetPointData(), mesh.vertex_arrays);
-  add_arrays(data->GetCellData(), mesh.triangle_arrays);
+  const vtkSmartPointer<vtkPolyData> data = borrow_polydata(mesh);
   if (!mesh.space.empty()) {
     vtkNew<vtkStringArray> space;
     space->SetName("SPACE");
     space->InsertNextValue(mesh.space);
     data->GetFieldData()->AddArray(space);
   }
-  VtkErrors errors;
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  errors.observe(writer);
-  writer->SetInputData(data);
-  writer->SetFileName(file.temporary_path().c_str());
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToNone();
-  writer->SetHeaderTypeToUInt64();
-  file.finish();
-  if (writer->Write() == 0 || errors.any() || writer->GetErrorCode() != 0) {
-    throw FileError(file.path(), "cannot be written: " + (errors.any() ? errors.first() : "no space is left"));
-  }
+  write_polydata(file, data);
 }
 
 }  // namespace shape3d::apps::formats

@@ -55,8 +55,10 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(path_
   if (!fs::exists(directory, error)) {
     throw FileError(path_, "the directory " + directory + " does not exist");
   }
-  if (!fs::is_directory(directory, error)) throw FileError(path_, directory + " is not a directory");
-  // VTK's writers choose nothing by extension, yet a temporary that keeps it is easier to recognise.
+  if (!fs::is_directory(directory, error))
+    throw FileError(path_, directory + " is not a directory");
+  // VTK's writers choose nothing by extension, yet a temporary that keeps it is easier to
+  // recognise.
   const fs::path name = fs::path(target_).filename();
   for (int attempt = 0; attempt < 16 && descriptor_ < 0; ++attempt) {
     const std::string hidden = "." + name.stem().string().substr(0, 100) + "." + random_letters() +
@@ -71,7 +73,8 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(path_
     }
   }
   if (descriptor_ < 0) throw FileError(path_, "no free name for a temporary file in " + directory);
-  if (exists) [[maybe_unused]] const int kept = fchmod(descriptor_, status.st_mode & 07777);
+  if (exists) [[maybe_unused]]
+    const int kept = fchmod(descriptor_, status.st_mode & 07777);
 }
 
 OutputFile::~OutputFile() { abandon(); }

@@ -13,14 +13,15 @@ class RemoveOnInterrupt;
 
 /// A file that appears under its name only when it is complete.
 ///
-/// The bytes go to a temporary file in the same directory; commit() renames it. Unless committed, the
-/// destructor (and an interrupt) removes it, and an existing file of that name stays as it was. A symbolic
-/// link is followed; a device or pipe is written directly.
-/// Every failure is a FileError that names the path and what the system says.
+/// The bytes go to a temporary file in the same directory; commit() renames it. Unless committed,
+/// the destructor (and an interrupt) removes it, and an existing file of that name stays as it was.
+/// A symbolic link is followed; a device or pipe is written directly. Every failure is a FileError
+/// that names the path and what the system says.
 class OutputFile {
  public:
   /// Creates the temporary file.
-  /// @throws FileError  the directory does not exist, is not a directory or not writable; the path is empty or
+  /// @throws FileError  the directory does not exist, is not a directory or not writable; the path
+  /// is empty or
   ///         is a directory.
   explicit OutputFile(std::string path);
   ~OutputFile();
@@ -39,7 +40,8 @@ class OutputFile {
   void write_number(Number number) {
     make_room(32);
     used_ = static_cast<std::size_t>(
-        std::to_chars(buffer_.get() + used_, buffer_.get() + kCapacity, number).ptr - buffer_.get());
+        std::to_chars(buffer_.get() + used_, buffer_.get() + kCapacity, number).ptr -
+        buffer_.get());
   }
   void write_char(char c) {
     make_room(1);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include <Eigen/LU>
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -11,10 +12,8 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
-#include <vtkXMLPolyDataWriter.h>
 
-#include "error.hpp"
-#include "vtk_errors.hpp"
+#include "vtk_mesh.hpp"
 
 namespace shape3d::apps {
 namespace {
@@ -22,7 +21,8 @@ namespace {
 // Walks along unused edges.
 class EdgeJoiner {
  public:
-  explicit EdgeJoiner(const zmc::Contour& contour) : edges_(contour.E), start_(contour.V.rows() + 1, 0) {
+  explicit EdgeJoiner(const zmc::Contour& contour)
+      : edges_(contour.E), start_(contour.V.rows() + 1, 0) {
     for (Eigen::Index e = 0; e < edges_.rows(); ++e) {
       for (int side = 0; side < 2; ++side) ++start_[index(edges_(e, side)) + 1];
     }
@@ -37,8 +37,8 @@ class EdgeJoiner {
   }
 
   std::vector<Polyline> join() {
-    // From the ends first: a vertex of odd degree begins or ends an open line. Starting where an edge leaves
-    // keeps the direction of the edges.
+    // From the ends first: a vertex of odd degree begins or ends an open line. Starting where an
+    // edge leaves keeps the direction of the edges.
     for (const bool leaving : {true, false}) {
       for (std::size_t v = 0; v + 1 < start_.size(); ++v) {
         while (unused_degree(v) % 2 == 1) {
@@ -61,7 +61,8 @@ class EdgeJoiner {
 
   [[nodiscard]] std::size_t unused_degree(std::size_t v) const {
     std::size_t degree = 0;
-    for (std::size_t i = start_[v]; i < start_[v + 1]; ++i) degree += used_[index(at_vertex_[i])] ? 0 : 1;
+    for (std::size_t i = start_[v]; i < start_[v + 1]; ++i)
+      degree += used_[index(at_vertex_[i])] ? 0 : 1;
     return degree;
   }
 
@@ -77,7 +78,8 @@ class EdgeJoiner {
     return leaving_only ? -1 : other;
   }
 
-  // Follows edges from v until none is left; each return to a vertex of the walk cuts off a closed line.
+  // Follows edges from v until none is left; each return to a vertex of the walk cuts off a closed
+  // line.
   void walk(std::int32_t v) {
     std::vector<std::int32_t> path{v};
     position_on_walk_[index(v)] = 0;
@@ -91,7 +93,8 @@ class EdgeJoiner {
         continue;
       }
       lines_.push_back({{path.begin() + seen, path.end()}, true});
-      for (std::size_t i = index(seen) + 1; i < path.size(); ++i) position_on_walk_[index(path[i])] = -1;
+      for (std::size_t i = index(seen) + 1; i < path.size(); ++i)
+        position_on_walk_[index(path[i])] = -1;
       path.resize(index(seen) + 1);
     }
     for (const std::int32_t u : path) position_on_walk_[index(u)] = -1;
@@ -99,7 +102,7 @@ class EdgeJoiner {
   }
 
   const Eigen::Matrix<std::int32_t, Eigen::Dynamic, 2, Eigen::RowMajor>& edges_;
-  std::vector<std::size_t> start_;        // of the edges at a vertex in at_vertex_
+  std::vector<std::size_t> start_;  // of the edges at a vertex in at_vertex_
   std::vector<Eigen::Index> at_vertex_;
   std::vector<bool> used_;
   std::vector<std::int64_t> position_on_walk_;
@@ -116,10 +119,17 @@ std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      default: result += c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      default:
+        result += c;
     }
   }
   return result;
@@ -130,8 +140,11 @@ std::string escaped(const std::string& text) {
 std::vector<Polyline> join_edges(const zmc::Contour& contour) { return EdgeJoiner(contour).join(); }
 
 SlicePlane::SlicePlane(const zmc::VolumeView& volume, int axis)
-    : to_lattice_((volume.direction * volume.spacing.asDiagonal()).inverse()), origin_(volume.origin) {
-  axes_ = axis == 0 ? std::array<int, 2>{1, 2} : axis == 1 ? std::array<int, 2>{0, 2} : std::array<int, 2>{0, 1};
+    : to_lattice_((volume.direction * volume.spacing.asDiagonal()).inverse()),
+      origin_(volume.origin) {
+  axes_ = axis == 0   ? std::array<int, 2>{1, 2}
+          : axis == 1 ? std::array<int, 2>{0, 2}
+                      : std::array<int, 2>{0, 1};
   for (std::size_t i = 0; i < 2; ++i) {
     const auto column = volume.direction.col(axes_[i]);
     Eigen::Index dominant = 0;
@@ -140,7 +153,8 @@ SlicePlane::SlicePlane(const zmc::VolumeView& volume, int axis)
     // Left and posterior run right and down; superior runs up.
     flipped_[i] = i == 1 && dominant == 2 ? along_world : !along_world;
     spacing_[i] = volume.spacing[axes_[i]];
-    size_[i] = static_cast<double>(volume.dims[static_cast<std::size_t>(axes_[i])] - 1) * spacing_[i];
+    size_[i] =
+        static_cast<double>(volume.dims[static_cast<std::size_t>(axes_[i])] - 1) * spacing_[i];
   }
 }
 
@@ -154,20 +168,25 @@ std::array<double, 2> SlicePlane::project(const Eigen::Vector3d& world) const {
   return p;
 }
 
-void write_svg(OutputFile& file, const zmc::Contour& contour, const std::vector<Polyline>& lines, const SlicePlane& plane,
-               const std::string& title) {
+void write_svg(OutputFile& file, const zmc::Contour& contour, const std::vector<Polyline>& lines,
+               const SlicePlane& plane, const std::string& title) {
   const auto [width, height] = plane.size();
   const double stroke = std::max(width, height) / 800.0;
-  file.write("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" +
-             decimals(width) + "mm\" height=\"" + decimals(height) + "mm\" viewBox=\"0 0 " + decimals(width) + " " +
-             decimals(height) + "\">\n<title>" + escaped(title) + "</title>\n");
+  file.write(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
+      "width=\"" +
+      decimals(width) + "mm\" height=\"" + decimals(height) + "mm\" viewBox=\"0 0 " +
+      decimals(width) + " " + decimals(height) + "\">\n<title>" + escaped(title) + "</title>\n");
   file.write("<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n");
-  file.write("<path fill=\"#e9dfcb\" fill-rule=\"evenodd\" stroke=\"#3b3a36\" stroke-linejoin=\"round\" stroke-width=\"" +
-             decimals(stroke) + "\" d=\"");
+  file.write(
+      "<path fill=\"#e9dfcb\" fill-rule=\"evenodd\" stroke=\"#3b3a36\" stroke-linejoin=\"round\" "
+      "stroke-width=\"" +
+      decimals(stroke) + "\" d=\"");
   for (const bool closed : {true, false}) {
     if (!closed) {
-      file.write("\"/>\n<path fill=\"none\" stroke=\"#3b3a36\" stroke-linejoin=\"round\" stroke-width=\"" + decimals(stroke) +
-                 "\" d=\"");
+      file.write(
+          "\"/>\n<path fill=\"none\" stroke=\"#3b3a36\" stroke-linejoin=\"round\" stroke-width=\"" +
+          decimals(stroke) + "\" d=\"");
     }
     for (const Polyline& line : lines) {
       if (line.closed != closed) continue;
@@ -184,8 +203,8 @@ void write_svg(OutputFile& file, const zmc::Contour& contour, const std::vector<
   file.write("\"/>\n</svg>\n");
 }
 
-void write_contour_vtp(OutputFile& file, const zmc::Contour& contour, const std::vector<Polyline>& lines,
-                       const std::string& space) {
+void write_contour_vtp(OutputFile& file, const zmc::Contour& contour,
+                       const std::vector<Polyline>& lines, const std::string& space) {
   vtkNew<vtkDoubleArray> coordinates;
   coordinates->SetNumberOfComponents(3);
   coordinates->SetNumberOfTuples(contour.V.rows());
@@ -205,16 +224,7 @@ void write_contour_vtp(OutputFile& file, const zmc::Contour& contour, const std:
   data->SetPoints(points);
   data->SetLines(cells);
   data->GetFieldData()->AddArray(label);
-  VtkErrors errors;
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  errors.observe(writer);
-  writer->SetInputData(data);
-  writer->SetFileName(file.temporary_path().c_str());
-  writer->SetCompressorTypeToNone();
-  file.finish();
-  if (writer->Write() == 0 || errors.any() || writer->GetErrorCode() != 0) {
-    throw FileError(file.path(), "cannot be written: " + (errors.any() ? errors.first() : "no space is left"));
-  }
+  write_polydata(file, data);
 }
 
 }  // namespace shape3d::apps

@@ -7,13 +7,14 @@
 
 namespace shape3d::apps {
 
-/// Numbers distinct positions 0, 1, 2 … in the order of first occurrence; equal means equal coordinates
-/// (−0 and 0 are equal). Open addressing: amortised O(1) a look-up.
+/// Numbers distinct positions 0, 1, 2 … in the order of first occurrence; equal means equal
+/// coordinates (−0 and 0 are equal). Open addressing: amortised O(1) a look-up.
 template <class Real>
 class PositionTable {
  public:
   /// @param positions  Receives x y z of each new position; not to be changed by others meanwhile.
-  explicit PositionTable(std::vector<Real>& positions, std::size_t expected = 0) : positions_(positions) {
+  explicit PositionTable(std::vector<Real>& positions, std::size_t expected = 0)
+      : positions_(positions) {
     std::size_t size = 1024;
     while (size < 2 * expected) size *= 2;
     slots_.assign(size, kEmpty);

@@ -32,7 +32,8 @@ std::string find_program(const std::string& name) {
   return {};
 }
 
-// What the server writes to the pipe, its display number, up to the line end; empty when it ended or is late.
+// What the server writes to the pipe, its display number, up to the line end; empty when it ended
+// or is late.
 std::string read_number(int descriptor) {
   std::string number;
   while (true) {
@@ -52,13 +53,16 @@ std::string read_number(int descriptor) {
 PrivateDisplay::PrivateDisplay() {
   const std::string program = find_program("Xvfb");
   if (program.empty()) {
-    throw PictureError("pictures are drawn under Xvfb, which is not installed (Debian package xvfb)");
+    throw PictureError(
+        "pictures are drawn under Xvfb, which is not installed (Debian package xvfb)");
   }
   int pipe_ends[2];
-  if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw PictureError(std::string("no pipe to Xvfb: ") + std::strerror(errno));
+  if (pipe2(pipe_ends, O_CLOEXEC) != 0)
+    throw PictureError(std::string("no pipe to Xvfb: ") + std::strerror(errno));
   const std::string descriptor = std::to_string(pipe_ends[1]);
-  const char* arguments[] = {"Xvfb", "-displayfd", descriptor.c_str(), "-screen", "0", "1280x1024x24",
-                             "-nolisten", "tcp", nullptr};
+  const char* arguments[] = {"Xvfb",      "-displayfd", descriptor.c_str(),
+                             "-screen",   "0",          "1280x1024x24",
+                             "-nolisten", "tcp",        nullptr};
   const pid_t parent = getpid();
   server_ = fork();
   if (server_ == 0) {

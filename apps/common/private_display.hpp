@@ -16,8 +16,8 @@ class PictureError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// An X server of our own without a screen (Xvfb), which lives as long as this object; it ends with this process
-/// in any case.
+/// An X server of our own without a screen (Xvfb), which lives as long as this object; it ends with
+/// this process in any case.
 class PrivateDisplay {
  public:
   /// @throws PictureError  Xvfb is not installed, does not start, or does not answer within 20 s.

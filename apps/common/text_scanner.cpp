@@ -91,13 +91,16 @@ bool TextScanner::parse(std::string_view word, double& value) {
   const auto [last, error] = std::from_chars(word.data(), word.data() + word.size(), unused);
   if (error != std::errc::result_out_of_range || last != word.data() + word.size()) return false;
   const std::size_t exponent = word.find_first_of("eE");
-  const bool tiny = exponent != std::string_view::npos ? word.find('-', exponent) != std::string_view::npos
-                                                       : std::abs(unused) < 1.0 && word.find("0.") < 2;
+  const bool tiny = exponent != std::string_view::npos
+                        ? word.find('-', exponent) != std::string_view::npos
+                        : std::abs(unused) < 1.0 && word.find("0.") < 2;
   if (tiny) value = 0.0;
   return tiny;
 }
 
-bool TextScanner::parse(std::string_view word, std::int64_t& value) { return parse_number(word, value); }
+bool TextScanner::parse(std::string_view word, std::int64_t& value) {
+  return parse_number(word, value);
+}
 
 std::int64_t TextScanner::line() const { return 1 + std::count(begin_, at_, '\n'); }
 

@@ -6,13 +6,16 @@
 
 namespace shape3d::apps {
 
-/// Reads words and numbers from text in memory; '\r' and tabs are blanks. Errors are FileErrors that name
-/// the line, what was expected and what stands there.
+/// Reads words and numbers from text in memory; '\r' and tabs are blanks. Errors are FileErrors
+/// that name the line, what was expected and what stands there.
 class TextScanner {
  public:
   /// @param comment  Starts a comment that ends with its line; '\0' for none.
   TextScanner(std::string_view text, std::string name, char comment = '#')
-      : begin_(text.data()), at_(text.data()), end_(text.data() + text.size()), name_(std::move(name)),
+      : begin_(text.data()),
+        at_(text.data()),
+        end_(text.data() + text.size()),
+        name_(std::move(name)),
         comment_(comment) {}
 
   /// Skips blanks, line ends and comments. @return whether anything is left.
