@@ -1,29 +1,57 @@
-# Components: libraries that are built, exported and found one by one.
-include(CMakePackageConfigHelpers)
+# Components: libraries that are built, installed and found one by one.
 include(GenerateExportHeader)
 
-set(SHAPE3D_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Shape3D)
-
-# Adds the components, given in dependency order, and the package configuration over them.
-# libs/<component>/dependencies.cmake is the only list of what one needs:
+# Adds components, given in dependency order; of these only the ones in SHAPE3D_COMPONENTS and those
+# they need. libs/<component>/dependencies.cmake is the only list of what one needs:
 #   shape3d_<component>_COMPONENTS        other components
 #   shape3d_<component>_PACKAGES          arguments of find_package, one string for each package
-#   shape3d_<component>_PRIVATE_PACKAGES  the same, when no public header uses the package
-function(shape3d_add_components)
-  foreach(component IN LISTS ARGN)
-    string(REPLACE _ / folder ${component})
-    include(${PROJECT_SOURCE_DIR}/libs/${folder}/dependencies.cmake)
+#   shape3d_<component>_PRIVATE_PACKAGES  the same, for packages that no public header uses
+# Component a_b lives in libs/a/b. Sets SHAPE3D_BUILT_COMPONENTS.
+macro(shape3d_add_components)
+  set(SHAPE3D_KNOWN_COMPONENTS ${ARGN})
+  foreach(component IN LISTS SHAPE3D_KNOWN_COMPONENTS)
+    string(REPLACE _ / shape3d_${component}_FOLDER libs/${component})
+    include(${PROJECT_SOURCE_DIR}/${shape3d_${component}_FOLDER}/dependencies.cmake)
+  endforeach()
+
+  shape3d_select_components(SHAPE3D_BUILT_COMPONENTS)
+  foreach(component IN LISTS SHAPE3D_BUILT_COMPONENTS)
     foreach(package IN LISTS shape3d_${component}_PACKAGES shape3d_${component}_PRIVATE_PACKAGES)
       separate_arguments(arguments UNIX_COMMAND ${package})
       find_package(${arguments} REQUIRED)
     endforeach()
-    add_subdirectory(libs/${folder})
+    add_subdirectory(${shape3d_${component}_FOLDER})
   endforeach()
+endmacro()
+
+# SHAPE3D_COMPONENTS and what it needs, in dependency order.
+function(shape3d_select_components result)
+  set(wanted ${SHAPE3D_COMPONENTS})
+  if(wanted STREQUAL "all")
+    set(wanted ${SHAPE3D_KNOWN_COMPONENTS})
+  endif()
+  foreach(component IN LISTS wanted)
+    if(NOT component IN_LIST SHAPE3D_KNOWN_COMPONENTS)
+      message(FATAL_ERROR "SHAPE3D_COMPONENTS names '${component}'; expected 'all' or some of: "
+        "${SHAPE3D_KNOWN_COMPONENTS}")
+    endif()
+  endforeach()
+
+  set(selected "")
+  set(dependents_first ${SHAPE3D_KNOWN_COMPONENTS})
+  list(REVERSE dependents_first)
+  foreach(component IN LISTS dependents_first)
+    if(component IN_LIST wanted)
+      list(APPEND wanted ${shape3d_${component}_COMPONENTS})
+      list(PREPEND selected ${component})
+    endif()
+  endforeach()
+  set(${result} ${selected} PARENT_SCOPE)
 endfunction()
 
 # Adds the library shape3d_<component>, called Shape3D::<component> here and after installation.
 #   shape3d_add_library(<component> SOURCES … HEADERS … [PUBLIC libraries…] [PRIVATE libraries…])
-# HEADERS: the public ones, below include/. PUBLIC: libraries named in a public header.
+# HEADERS: the public ones, below include/. PUBLIC: libraries that a public header uses.
 function(shape3d_add_library component)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE")
   set(target shape3d_${component})
@@ -43,7 +71,7 @@ function(shape3d_add_library component)
   if(NOT BUILD_SHARED_LIBS)
     target_compile_definitions(${target} PUBLIC ${macro_prefix}_STATIC_DEFINE)
   endif()
-  # a·b + c is rounded twice on every machine: results can be compared across machines.
+  # No fused multiply-add: results are the same on machines with and without it.
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
   set_target_properties(${target} PROPERTIES

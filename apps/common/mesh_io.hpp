@@ -53,7 +53,7 @@ enum class MeshEncoding { binary, binary_big_endian, ascii };
 /// Writes a mesh; does not commit the file.
 ///
 /// Coordinates are exact in PLY and VTP (double) and in text (shortest decimals that read back the
-/// same); STL has floats. The space stands as "SPACE=LPS" in a comment (PLY, OBJ, OFF), the header
+/// same); binary STL has floats. The space stands as "SPACE=LPS" in a comment (PLY, OBJ, OFF), the header
 /// (STL) or the field data (VTP), where 3D Slicer looks for it. Arrays are written to VTP only.
 /// @throws FileError  writing failed; the format cannot number the vertices or triangles (PLY 2³²
 /// ids, STL 2³²

@@ -35,10 +35,10 @@ bool is_addressable(const std::array<std::int64_t, 3>& dims, SampleType type) {
   return room > 0;
 }
 
-/// The volume of the parallelepiped of the axes, made unit vectors, is zero up to rounding.
-/// Dividing by the norms leaves relative errors under 4 epsilon in the six products of the
-/// determinant, each at most 1 and together at most 3√3 (Hadamard's bound for the absolute values):
-/// 3·4·5.2 < 64.
+/// The axes, made unit vectors, span a volume of zero up to rounding. Dividing by the norms gives
+/// each entry a relative error under 4u, the products and sums of the determinant add 6u (u: half
+/// an epsilon). The six products sum to at most 3√3 in absolute value, the product of the columns'
+/// sums: the error is under 18·5.2 u = 47 epsilon.
 bool is_singular(const Eigen::Matrix3d& direction) {
   Eigen::Matrix3d unit = direction;
   for (int axis = 0; axis < 3; ++axis) {

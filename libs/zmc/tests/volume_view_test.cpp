@@ -29,7 +29,7 @@ std::string complaint(const VolumeView& view) {
 /// A valid view of 4 x 5 x 6 samples, sample (i, j, k) being its place in the dense array.
 struct Example {
   std::vector<std::int16_t> samples = [] {
-    std::vector<std::int16_t> values(4 * 5 * 6);
+    std::vector<std::int16_t> values(120);
     std::iota(values.begin(), values.end(), std::int16_t{0});
     return values;
   }();
@@ -105,7 +105,7 @@ TEST_CASE("a subvolume of a view with negative strides follows them", "[zmc]") {
   Example example;
   VolumeView flipped = example.view;
   flipped.strides = {1, -4, 20};
-  flipped.data = example.samples.data() + 4 * 4;
+  flipped.data = &example.samples[16];
   const VolumeView block = subvolume(flipped, {0, 1, 0}, {4, 4, 6});
   CHECK(sample(block, 2, 0, 3) == sample(example.view, 2, 3, 3));
   CHECK(sample(block, 2, 2, 3) == sample(example.view, 2, 1, 3));
