@@ -22,8 +22,11 @@ template <class T>
 class Classifier {
  public:
   Classifier(const VolumeView& view, double isovalue, const Options& options, SignLattice& lattice)
-      : view_(view), strides_(view.effective_strides()), threshold_(isovalue, options.inside),
-        capped_(options.border == Border::capped), lattice_(lattice) {}
+      : view_(view),
+        strides_(view.effective_strides()),
+        threshold_(isovalue, options.inside),
+        capped_(options.border == Border::capped),
+        lattice_(lattice) {}
 
   /// Fills the rows of layers [first, last) of the lattice; counts samples that are not finite.
   void classify_layers(std::int64_t first, std::int64_t last) {
@@ -45,8 +48,9 @@ class Classifier {
             const T value = row_start(j, k)[i * strides_[0]];
             if (std::isfinite(value)) continue;
             std::ostringstream text;
-            text << "samples: expected finite values, got " << value << " at (" << i << ", " << j << ", " << k
-                 << "), the first of " << not_finite() << "; NonFinite::mask skips the cells that touch one";
+            text << "samples: expected finite values, got " << value << " at (" << i << ", " << j
+                 << ", " << k << "), the first of " << not_finite()
+                 << "; NonFinite::mask skips the cells that touch one";
             throw std::invalid_argument(text.str());
           }
         }
@@ -80,7 +84,8 @@ class Classifier {
     const T* samples = row_start(j, k);
     if (strides_[0] != 1) {
       gathered.resize(static_cast<std::size_t>(nx));
-      for (std::int64_t i = 0; i < nx; ++i) gathered[static_cast<std::size_t>(i)] = samples[i * strides_[0]];
+      for (std::int64_t i = 0; i < nx; ++i)
+        gathered[static_cast<std::size_t>(i)] = samples[i * strides_[0]];
       samples = gathered.data();
     }
     Word any_negative = 0, any_zero = 0, any_positive = 0;
@@ -123,8 +128,8 @@ class Classifier {
   std::atomic<std::int64_t> not_finite_{0};
 };
 
-/// Turns bits of masked samples into bits of cells without one, row by row from the front: a row needs
-/// only rows behind it.
+/// Turns bits of masked samples into bits of cells without one, row by row from the front: a row
+/// needs only rows behind it.
 void make_cell_bits(SignLattice& lattice) {
   for (std::int64_t k = 0; k < lattice.nz; ++k) {
     for (std::int64_t j = 0; j < lattice.ny; ++j) {
@@ -133,8 +138,8 @@ void make_cell_bits(SignLattice& lattice) {
         Word bad = ~Word{0};
         if (j + 1 < lattice.ny && k + 1 < lattice.nz) {
           bad = 0;
-          for (const std::int64_t row : {lattice.row(j, k), lattice.row(j + 1, k), lattice.row(j, k + 1),
-                                         lattice.row(j + 1, k + 1)}) {
+          for (const std::int64_t row : {lattice.row(j, k), lattice.row(j + 1, k),
+                                         lattice.row(j, k + 1), lattice.row(j + 1, k + 1)}) {
             const Word* samples = lattice.cell_bits.data() + row * lattice.words;
             bad |= samples[w] | (samples[w] >> 1);
             if (w + 1 < lattice.words) bad |= samples[w + 1] << 63;
@@ -148,8 +153,8 @@ void make_cell_bits(SignLattice& lattice) {
 
 }  // namespace
 
-bool classify(const VolumeView& view, double isovalue, const Options& options, const LayerLoop& for_layers,
-              SignLattice& lattice) {
+bool classify(const VolumeView& view, double isovalue, const Options& options,
+              const LayerLoop& for_layers, SignLattice& lattice) {
   const std::int64_t margin = options.border == Border::capped ? 2 : 0;
   lattice.nx = view.dims[0] + margin;
   lattice.ny = view.dims[1] + margin;
@@ -164,7 +169,9 @@ bool classify(const VolumeView& view, double isovalue, const Options& options, c
 
   return visit_sample_type(view.type, [&](auto sample) {
     Classifier<decltype(sample)> classifier(view, isovalue, options, lattice);
-    const auto body = [&](std::int64_t first, std::int64_t last) { classifier.classify_layers(first, last); };
+    const auto body = [&](std::int64_t first, std::int64_t last) {
+      classifier.classify_layers(first, last);
+    };
     if (!for_layers(lattice.nz, body)) return false;
     if (classifier.not_finite() == 0) return true;
     if (options.non_finite == NonFinite::error) classifier.report_not_finite();

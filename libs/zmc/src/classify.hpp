@@ -8,14 +8,16 @@
 
 namespace shape3d::zmc::detail {
 
-/// How long stages run: for_layers(count, body) calls body on ranges of layers and may be cancelled.
-using LayerLoop = std::function<bool(std::int64_t, const std::function<void(std::int64_t, std::int64_t)>&)>;
+/// How long stages run: for_layers(count, body) calls body on ranges of layers and may be
+/// cancelled.
+using LayerLoop =
+    std::function<bool(std::int64_t, const std::function<void(std::int64_t, std::int64_t)>&)>;
 
-/// Signs of all samples of a view by comparison with the isovalue; sized and filled anew. With a capped
-/// border the lattice is one sample larger on every side and positive there.
+/// Signs of all samples of a view by comparison with the isovalue; sized and filled anew. With a
+/// capped border the lattice is one sample larger on every side and positive there.
 /// @return false when the loop was cancelled.
 /// @throws std::invalid_argument  a sample is not finite and options.non_finite is error.
-bool classify(const VolumeView& view, double isovalue, const Options& options, const LayerLoop& for_layers,
-              SignLattice& lattice);
+bool classify(const VolumeView& view, double isovalue, const Options& options,
+              const LayerLoop& for_layers, SignLattice& lattice);
 
 }  // namespace shape3d::zmc::detail

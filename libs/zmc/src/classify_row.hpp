@@ -12,8 +12,8 @@
 
 namespace shape3d::zmc::detail {
 
-/// Comparison with a real isovalue said in the sample type itself, where it is exact: a sample is negative
-/// when it is below `bound` (above it when `above`), zero when it equals `zero`.
+/// Comparison with a real isovalue said in the sample type itself, where it is exact: a sample is
+/// negative when it is below `bound` (above it when `above`), zero when it equals `zero`.
 template <class T>
 struct Threshold {
   enum class Rule { compare, all_negative, none_negative };
@@ -31,8 +31,10 @@ struct Threshold {
       zero = nearest;
       bound = nearest;
       constexpr T kInfinity = std::numeric_limits<T>::infinity();
-      if (!above && static_cast<double>(nearest) < isovalue) bound = std::nextafter(nearest, kInfinity);
-      if (above && static_cast<double>(nearest) > isovalue) bound = std::nextafter(nearest, -kInfinity);
+      if (!above && static_cast<double>(nearest) < isovalue)
+        bound = std::nextafter(nearest, kInfinity);
+      if (above && static_cast<double>(nearest) > isovalue)
+        bound = std::nextafter(nearest, -kInfinity);
     } else {
       const double limit = above ? std::floor(isovalue) : std::ceil(isovalue);
       const auto lowest = static_cast<double>(std::numeric_limits<T>::lowest());
@@ -50,10 +52,11 @@ struct Threshold {
   }
 };
 
-/// Up to 64 contiguous samples → negative bits, zero bits, and for reals the bits of those not finite.
+/// Up to 64 contiguous samples → negative bits, zero bits, and for reals the bits of those not
+/// finite.
 template <class T>
-inline void classify_word(const T* samples, int count, const Threshold<T>& threshold, Word& negative, Word& zero,
-                          Word& not_finite) {
+inline void classify_word(const T* samples, int count, const Threshold<T>& threshold,
+                          Word& negative, Word& zero, Word& not_finite) {
   alignas(64) std::uint8_t n[64] = {}, z[64] = {}, b[64] = {};
   const T bound = threshold.bound, value = threshold.zero;
   if (threshold.above) {

@@ -1,6 +1,7 @@
 #pragma once
 
-// Access to samples of a lattice that may be surrounded by one layer of imaginary samples (Border::capped).
+// Access to samples of a lattice that may be surrounded by one layer of imaginary samples
+// (Border::capped).
 
 #include <cstdint>
 #include <type_traits>
@@ -10,8 +11,8 @@
 
 namespace shape3d::zmc::detail {
 
-/// |sample − isovalue| at lattice points. With Capped, indices count from the imaginary layer, whose
-/// samples are infinitely far from the isovalue.
+/// |sample − isovalue| at lattice points. With Capped, indices count from the imaginary layer,
+/// whose samples are infinitely far from the isovalue.
 template <class T, bool Capped>
 struct MagnitudeReader {
   const T* data = nullptr;
@@ -20,12 +21,16 @@ struct MagnitudeReader {
   double isovalue = 0.0;
 
   MagnitudeReader(const VolumeView& view, double iso)
-      : data(static_cast<const T*>(view.data)), strides(view.effective_strides()), dims(view.dims), isovalue(iso) {}
+      : data(static_cast<const T*>(view.data)),
+        strides(view.effective_strides()),
+        dims(view.dims),
+        isovalue(iso) {}
 
   double operator()(std::int64_t i, std::int64_t j, std::int64_t k) const {
     if constexpr (Capped) {
       --i, --j, --k;
-      if (i < 0 || j < 0 || k < 0 || i >= dims[0] || j >= dims[1] || k >= dims[2]) return kHugeMagnitude;
+      if (i < 0 || j < 0 || k < 0 || i >= dims[0] || j >= dims[1] || k >= dims[2])
+        return kHugeMagnitude;
     }
     const auto sample = static_cast<double>(data[i * strides[0] + j * strides[1] + k * strides[2]]);
     if constexpr (std::is_same_v<T, double>) return magnitude_between(sample, isovalue);
@@ -69,7 +74,8 @@ class AnyMagnitudeReader {
   using Read = double (*)(const VolumeView&, double, std::int64_t, std::int64_t, std::int64_t);
 
   template <class T, bool Capped>
-  static double read(const VolumeView& view, double isovalue, std::int64_t i, std::int64_t j, std::int64_t k) {
+  static double read(const VolumeView& view, double isovalue, std::int64_t i, std::int64_t j,
+                     std::int64_t k) {
     return MagnitudeReader<T, Capped>(view, isovalue)(i, j, k);
   }
   static Read choose(SampleType type, bool capped) {

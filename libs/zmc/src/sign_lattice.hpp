@@ -15,16 +15,17 @@ enum RowFlag : std::uint8_t { kRowNegative = 1, kRowPositive = 2, kRowZero = 4, 
 
 /// Signs of the samples of a lattice, 2 bits each.
 ///
-/// Row r = j + ny·k holds the samples along x in `words` words; bit i % 64 of word i / 64 is sample i.
-/// A zero sample that is a vertex of the surface gets its negative bit set too, so that
+/// Row r = j + ny·k holds the samples along x in `words` words; bit i % 64 of word i / 64 is sample
+/// i. A zero sample that is a vertex of the surface gets its negative bit set too, so that
 ///   negative = N & ~Z,  positive = ~(N | Z),  used zero = N & Z,
 /// and marking one never changes what a concurrent reader sees of signs. Bits beyond the row are 0.
 struct SignLattice {
   std::int64_t nx = 0, ny = 0, nz = 0;
-  std::int64_t words = 0;                ///< Per row.
-  detail::Buffer<Word> n_bits, z_bits;   ///< One spare word at the end of each.
-  detail::Buffer<Word> cell_bits;        ///< Only with masked samples: bit i: cell (i, j, k) has eight finite samples.
-  detail::Buffer<std::uint8_t> flags;    ///< Per row.
+  std::int64_t words = 0;               ///< Per row.
+  detail::Buffer<Word> n_bits, z_bits;  ///< One spare word at the end of each.
+  detail::Buffer<Word>
+      cell_bits;  ///< Only with masked samples: bit i: cell (i, j, k) has eight finite samples.
+  detail::Buffer<std::uint8_t> flags;  ///< Per row.
   bool masked = false;
 
   [[nodiscard]] std::int64_t rows() const { return ny * nz; }
@@ -35,10 +36,13 @@ struct SignLattice {
   [[nodiscard]] bool is_zero(std::int64_t i, std::int64_t row) const {
     return ((z_row(row)[i >> 6] >> (i & 63)) & 1u) != 0;
   }
-  /// Zero bits of the cell's corners (see corner_bit) in the high byte, negative bits in the low one.
+  /// Zero bits of the cell's corners (see corner_bit) in the high byte, negative bits in the low
+  /// one.
   [[nodiscard]] unsigned cell_mask(std::int64_t i, std::int64_t j, std::int64_t k) const;
   [[nodiscard]] bool cell_valid(std::int64_t i, std::int64_t j, std::int64_t k) const {
-    return !masked || ((cell_bits[static_cast<std::size_t>(row(j, k) * words + (i >> 6))] >> (i & 63)) & 1u) != 0;
+    return !masked ||
+           ((cell_bits[static_cast<std::size_t>(row(j, k) * words + (i >> 6))] >> (i & 63)) & 1u) !=
+               0;
   }
 };
 
@@ -52,9 +56,11 @@ inline void mark_used(SignLattice& lattice, std::int64_t i, std::int64_t row) {
   if ((load(word) & bit) == 0) __atomic_fetch_or(word, bit, __ATOMIC_RELAXED);
 }
 
-/// Word w of a row moved down by one sample: bit i is sample i + 1. The last bit of the last word is not
-/// meaningful. `row` must be followed by a readable word.
-inline Word load_next(const Word* row, std::int64_t w) { return (load(row + w) >> 1) | (load(row + w + 1) << 63); }
+/// Word w of a row moved down by one sample: bit i is sample i + 1. The last bit of the last word
+/// is not meaningful. `row` must be followed by a readable word.
+inline Word load_next(const Word* row, std::int64_t w) {
+  return (load(row + w) >> 1) | (load(row + w + 1) << 63);
+}
 
 /// Bits of word w that are samples with index below `count`.
 inline Word below_mask(std::int64_t count, std::int64_t w) {

@@ -31,8 +31,10 @@ void for_each_all_zero_cell(const SignLattice& lattice, Visit&& visit) {
       if (all == 0) continue;
       for (std::int64_t w = 0; w < lattice.words; ++w) {
         Word zero = below_mask(lattice.nx - 1, w);
-        for (const std::int64_t row : r) zero &= load(lattice.z_row(row) + w) & load_next(lattice.z_row(row), w);
-        if (lattice.masked) zero &= lattice.cell_bits[static_cast<std::size_t>(r[0] * lattice.words + w)];
+        for (const std::int64_t row : r)
+          zero &= load(lattice.z_row(row) + w) & load_next(lattice.z_row(row), w);
+        if (lattice.masked)
+          zero &= lattice.cell_bits[static_cast<std::size_t>(r[0] * lattice.words + w)];
         for (; zero != 0; zero &= zero - 1) visit(Place{64 * w + __builtin_ctzll(zero), j, k});
       }
     }
@@ -41,8 +43,8 @@ void for_each_all_zero_cell(const SignLattice& lattice, Visit&& visit) {
 
 }  // namespace
 
-int face_sign(const LatticeCells& cells, const ZeroRegions& regions, std::int64_t i, std::int64_t j, std::int64_t k,
-              int face) {
+int face_sign(const LatticeCells& cells, const ZeroRegions& regions, std::int64_t i, std::int64_t j,
+              std::int64_t k, int face) {
   const unsigned mask = cells.lattice().cell_mask(i, j, k);
   if ((mask & kAllZero) == kAllZero) return regions.sign(i, cells.lattice().row(j, k));
   const CellConfig& config = cells.config_of_mask(mask, i, j, k);
@@ -57,11 +59,15 @@ void ZeroRegions::solve(const LatticeCells& cells) {
   uniform_sign_ = 0;
 
   const auto inside = [&](const Place& p) {
-    return p.i >= 0 && p.j >= 0 && p.k >= 0 && p.i + 1 < lattice.nx && p.j + 1 < lattice.ny && p.k + 1 < lattice.nz &&
-           lattice.cell_valid(p.i, p.j, p.k);
+    return p.i >= 0 && p.j >= 0 && p.k >= 0 && p.i + 1 < lattice.nx && p.j + 1 < lattice.ny &&
+           p.k + 1 < lattice.nz && lattice.cell_valid(p.i, p.j, p.k);
   };
-  const auto all_zero = [&](const Place& p) { return (lattice.cell_mask(p.i, p.j, p.k) & kAllZero) == kAllZero; };
-  const auto neighbour = [](const Place& p, const Step& s) { return Place{p.i + s.di, p.j + s.dj, p.k + s.dk}; };
+  const auto all_zero = [&](const Place& p) {
+    return (lattice.cell_mask(p.i, p.j, p.k) & kAllZero) == kAllZero;
+  };
+  const auto neighbour = [](const Place& p, const Step& s) {
+    return Place{p.i + s.di, p.j + s.dj, p.k + s.dk};
+  };
 
   // Distance 1: the signs of solved neighbours.
   struct Labelled {
@@ -99,16 +105,16 @@ void ZeroRegions::solve(const LatticeCells& cells) {
     std::size_t kept = 0;
     for (const Labelled& label : labels) {
       if (sign_at(label.place) != 0) continue;
-      const auto word =
-          static_cast<std::size_t>(lattice.row(label.place.j, label.place.k) * words_ + (label.place.i >> 6));
+      const auto word = static_cast<std::size_t>(
+          lattice.row(label.place.j, label.place.k) * words_ + (label.place.i >> 6));
       (label.sign > 0 ? positive_ : negative_)[word] |= Word{1} << (label.place.i & 63);
       labels[kept++] = label;
     }
     labels.resize(kept);
   };
   commit(frontier);
-  // Distance n + 1: cells without a sign beside the cells of distance n. All their neighbours that have a sign before
-  // the level is committed are at distance n.
+  // Distance n + 1: cells without a sign beside the cells of distance n. All their neighbours that
+  // have a sign before the level is committed are at distance n.
   std::vector<Labelled> next;
   while (!frontier.empty()) {
     next.clear();

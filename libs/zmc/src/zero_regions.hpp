@@ -9,11 +9,12 @@ namespace shape3d::zmc::detail {
 
 /// Signs of the cells whose eight samples are zero.
 ///
-/// The dissertation leaves them open ("shift until the zero face can be solved"). Here each takes a sign by
-/// breadth-first search from the zero faces of the cells around: a cell with solved neighbours takes the
-/// sign that the first of them, in the order −z −y −x +x +y +z, sees at the shared face; a cell at
-/// distance n + 1 that of the first neighbour at distance n in the same order. No step looks at which
-/// sign it is, so negated samples give negated signs. A region without solved neighbours has none.
+/// The dissertation leaves them open ("shift until the zero face can be solved"). Here each takes a
+/// sign by breadth-first search from the zero faces of the cells around: a cell with solved
+/// neighbours takes the sign that the first of them, in the order −z −y −x +x +y +z, sees at the
+/// shared face; a cell at distance n + 1 that of the first neighbour at distance n in the same
+/// order. No step looks at which sign it is, so negated samples give negated signs. A region
+/// without solved neighbours has none.
 class ZeroRegions {
  public:
   /// Finds and solves all of them; call once the lattice is filled.
@@ -36,9 +37,9 @@ class ZeroRegions {
   detail::Buffer<Word> positive_, negative_;  ///< Bit rows like the lattice's.
 };
 
-/// Sign of a cell at its face (0 … 5), seen from the cell: that of an all-zero cell is its own; 0 where the face is neither
-/// a zero face nor of case 11, or undefined.
-int face_sign(const LatticeCells& cells, const ZeroRegions& regions, std::int64_t i, std::int64_t j, std::int64_t k,
-              int face);
+/// Sign of a cell at its face (0 … 5), seen from the cell: that of an all-zero cell is its own; 0
+/// where the face is neither a zero face nor of case 11, or undefined.
+int face_sign(const LatticeCells& cells, const ZeroRegions& regions, std::int64_t i, std::int64_t j,
+              std::int64_t k, int face);
 
 }  // namespace shape3d::zmc::detail

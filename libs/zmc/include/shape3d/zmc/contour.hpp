@@ -25,7 +25,7 @@ struct Contour {
 /// of patches and zero faces; the contour is its boundary in the plane, modulo 2: the patch edges
 /// and sides of zero faces that lie in the plane and occur an odd number of times. It is therefore
 /// closed: every vertex off the border of the volume has even degree. Edges run with the inside on
-/// their right when seen against the axis direction for unambiguous edges.
+/// their left when seen against the axis, in lattice coordinates.
 ///
 /// @param axis   0, 1 or 2 for x, y, z.
 /// @param slice  Plane index, 0 ≤ slice < dims[axis].

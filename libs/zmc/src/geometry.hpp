@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include "samples.hpp"
+#include "shape3d/zmc/cell.hpp"
+#include "shape3d/zmc/volume_view.hpp"
+
+namespace shape3d::zmc::detail {
+
+/// Lattice coordinates to world coordinates. With a capped border lattice indices start one sample
+/// early.
+class Geometry {
+ public:
+  Geometry(const VolumeView& view, bool capped)
+      : origin_(view.origin),
+        axes_(view.direction * view.spacing.asDiagonal()),
+        shift_(capped ? 1.0 : 0.0) {}
+
+  [[nodiscard]] Eigen::Vector3d world(double x, double y, double z) const {
+    return plane(z) + axes_.col(1) * (y - shift_) + axes_.col(0) * (x - shift_);
+  }
+  /// Terms of world() in their order of summation.
+  [[nodiscard]] Eigen::Vector3d plane(double z) const {
+    return origin_ + axes_.col(2) * (z - shift_);
+  }
+  [[nodiscard]] Eigen::Vector3d y_term(double y) const { return axes_.col(1) * (y - shift_); }
+  [[nodiscard]] Eigen::Vector3d x_term(double x) const { return axes_.col(0) * (x - shift_); }
+
+  /// The axes form a left-handed frame, so that triangles must be turned over.
+  [[nodiscard]] bool mirrored() const { return axes_.determinant() < 0.0; }
+
+  /// World place of a surface vertex (as in CellPatches) of cell (i, j, k).
+  template <class Magnitude>
+  [[nodiscard]] Eigen::Vector3d surface_vertex(const Magnitude& magnitude, std::int64_t i,
+                                               std::int64_t j, std::int64_t k, int vertex) const {
+    Eigen::Vector3d p(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
+    const auto& low = kCellVertices[vertex >= 12 ? vertex - 12 : lower_end(vertex)];
+    p += Eigen::Vector3d(low[0], low[1], low[2]);
+    if (vertex < 12) {
+      const int axis = edge_axis(vertex);
+      const std::int64_t x = i + low[0], y = j + low[1], z = k + low[2];
+      p[axis] += crossing_parameter(magnitude(x, y, z),
+                                    magnitude(x + (axis == 0), y + (axis == 1), z + (axis == 2)));
+    }
+    return world(p[0], p[1], p[2]);
+  }
+
+  /// Direction of a cell edge, 0 … 2.
+  static int edge_axis(int edge) {
+    if (edge >= 8) return 2;
+    return edge % 2;  // edges 0, 2, 4, 6 along x; 1, 3, 5, 7 along y
+  }
+  /// The end of a cell edge with the smaller coordinate.
+  static int lower_end(int edge) {
+    const auto& e = kCellEdges[edge];
+    const int axis = edge_axis(edge);
+    return kCellVertices[e[0]][axis] < kCellVertices[e[1]][axis] ? e[0] : e[1];
+  }
+
+ private:
+  Eigen::Vector3d origin_;
+  Eigen::Matrix3d axes_;
+  double shift_;
+};
+
+}  // namespace shape3d::zmc::detail

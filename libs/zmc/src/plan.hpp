@@ -1,0 +1,54 @@
+#pragma once
+
+// What counting finds out, so that every thread can write its part of the surface at its place.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "shape3d/zmc/surface.hpp"
+#include "zero_faces.hpp"
+
+namespace shape3d::zmc::detail {
+
+/// The vertices that belong to a lattice row, in the order of their ids: crossings along x, y, z,
+/// used zero samples, centroids of the cells of the row. Triangles: those of the cells of the row,
+/// by x.
+struct RowPlan {
+  std::uint32_t first_vertex = 0;     ///< Relative to the row's group.
+  std::uint32_t first_triangle = 0;   ///< Relative to the row's group.
+  std::uint32_t x = 0, y = 0, z = 0;  ///< Crossings.
+};
+
+/// Inserted faces of the cells of a layer and their places among all.
+struct LayerPlan {
+  std::vector<InsertedFace> quads, closing;
+  std::int64_t first_quad = 0, first_closing = 0;
+  /// Sides of polygons that run along lattice edges between two zero samples: 3·(i + nx·j) + axis,
+  /// of edges that start in this layer's lower plane and of edges in its upper one.
+  std::vector<std::uint64_t> lower_edges, upper_edges;
+};
+
+struct Plan {
+  static constexpr int kGroupShift = 6;
+  /// Rows longer than this would overflow the numbers of a group.
+  static constexpr std::int64_t kLongestRow = std::int64_t{1} << 22;
+
+  std::vector<RowPlan> rows;
+  std::vector<std::int64_t> group_vertex, group_triangle;
+  std::vector<LayerPlan> layers;
+  std::int64_t row_vertices = 0;  ///< All but the centres of zero faces, which come last.
+  std::int64_t patch_triangles = 0;
+  Counts counts;
+
+  [[nodiscard]] std::int64_t first_vertex(std::int64_t row) const {
+    return group_vertex[static_cast<std::size_t>(row >> kGroupShift)] +
+           rows[static_cast<std::size_t>(row)].first_vertex;
+  }
+  [[nodiscard]] std::int64_t first_triangle(std::int64_t row) const {
+    return group_triangle[static_cast<std::size_t>(row >> kGroupShift)] +
+           rows[static_cast<std::size_t>(row)].first_triangle;
+  }
+};
+
+}  // namespace shape3d::zmc::detail
