@@ -59,8 +59,9 @@ void check_arguments(const VolumeView& view, double isovalue, const Options& opt
 
 LayerLoop layer_loop(const Options& options, double from, double to) {
   const int threads = resolve_threads(options.threads);
-  return [&options, threads, from, to](
-             std::int64_t count, const std::function<void(std::int64_t, std::int64_t)>& body) {
+  return [&options, threads, from, to, reached = from](
+             std::int64_t count,
+             const std::function<void(std::int64_t, std::int64_t)>& body) mutable {
     constexpr std::int64_t kGrain = 1;
     if (!options.progress) {
       parallel_ranges(count, kGrain, threads, body);
@@ -73,7 +74,8 @@ LayerLoop layer_loop(const Options& options, double from, double to) {
       parallel_ranges(last - first, kGrain, threads,
                       [&](std::int64_t a, std::int64_t b) { body(first + a, first + b); });
       const double share = static_cast<double>(last) / static_cast<double>(count);
-      if (!options.progress(from + (to - from) * share)) return false;
+      reached = std::max(reached, from + (to - from) * share);  // several loops may share the range
+      if (!options.progress(reached)) return false;
     }
     return true;
   };
