@@ -25,6 +25,8 @@ template <class Real, class Index>
 Status finish_empty(Surface<Real, Index>& surface, Status status) {
   surface.positions.clear();
   surface.indices.clear();
+  surface.gradients.clear();
+  surface.normals.clear();
   surface.first_zero_face = surface.first_closing = 0;
   return status;
 }
@@ -64,10 +66,10 @@ Status build_surface(const VolumeView& view, double isovalue, const Options& opt
   surface.first_closing = surface.first_zero_face + (centred ? 4 : 2) * job.plan.counts.zero_faces;
   const std::int64_t triangles = surface.first_closing + job.plan.counts.closing_triangles;
   if (triangles == 0) return finish_empty(surface, Status::empty);
-  surface.positions.clear();  // what was there need not be moved
-  surface.indices.clear();
   surface.positions.resize(static_cast<std::size_t>(3 * vertices));
   surface.indices.resize(static_cast<std::size_t>(3 * triangles));
+  if (options.gradients) surface.gradients.resize(surface.positions.size());
+  if (options.normals) surface.normals.resize(surface.positions.size());
   if (!detail::generate(view, isovalue, options, cells, job.plan,
                         detail::layer_loop(options, middle, to), surface)) {
     return finish_empty(surface, Status::cancelled);

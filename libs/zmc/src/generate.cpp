@@ -11,6 +11,14 @@ namespace shape3d::zmc::detail {
 namespace {
 
 template <class Real, class Index>
+VertexArrays<Real> arrays_of(Surface<Real, Index>& surface) {
+  const auto array = [](detail::Buffer<Real>& buffer) {
+    return buffer.empty() ? nullptr : buffer.data();
+  };
+  return {array(surface.positions), array(surface.gradients), array(surface.normals)};
+}
+
+template <class Real, class Index>
 class Generator final : public CentroidSink {
  public:
   Generator(const VolumeView& view, double isovalue, const Options& options,
@@ -23,7 +31,9 @@ class Generator final : public CentroidSink {
         magnitude_(view, isovalue, options.border == Border::capped),
         options_(options),
         surface_(surface),
-        tables_(triangle_tables(options.triangulation, geometry_.mirrored())) {}
+        tables_(triangle_tables(options.triangulation, geometry_.mirrored())),
+        arrays_(arrays_of(surface)),
+        attributes_(view, options) {}
 
   /// Triangles and centroids of layers [first, last).
   void layers(std::int64_t first, std::int64_t last) const {
@@ -38,14 +48,24 @@ class Generator final : public CentroidSink {
   /// Sums in the order of the vertices' ids.
   void put(std::int64_t id, std::uint32_t members, std::int64_t i, std::int64_t j,
            std::int64_t k) const override {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    Eigen::Vector3d place = Eigen::Vector3d::Zero(), gradient = place, normal = place;
     int count = 0;
     for (; members != 0; members &= members - 1, ++count) {
-      sum += geometry_.surface_vertex(magnitude_, i, j, k, kSlotVertex[__builtin_ctz(members)]);
+      const int vertex = kSlotVertex[__builtin_ctz(members)];
+      place += geometry_.surface_vertex(magnitude_, i, j, k, vertex);
+      if (!arrays_.with_attributes()) continue;
+      const VertexAttributes a = attributes_.at_surface_vertex(magnitude_, i, j, k, vertex);
+      gradient += a.gradient;
+      normal += a.normal;
     }
-    sum /= count;
-    Real* out = surface_.positions.data() + 3 * id;
-    for (int d = 0; d < 3; ++d) out[d] = static_cast<Real>(sum[d]);
+    for (int d = 0; d < 3; ++d) {
+      arrays_.positions[3 * id + d] = static_cast<Real>(place[d] / count);
+    }
+    if (arrays_.with_attributes()) {
+      const double length = normal.norm();
+      if (length > 0.0) normal /= length;
+      arrays_.put(id, {gradient / count, normal});
+    }
   }
 
  private:
@@ -132,6 +152,8 @@ class Generator final : public CentroidSink {
   const Options& options_;
   Surface<Real, Index>& surface_;
   const TriangleTables& tables_;
+  VertexArrays<Real> arrays_;
+  AttributeSampler attributes_;
 };
 
 }  // namespace
@@ -143,8 +165,7 @@ bool generate(const VolumeView& view, double isovalue, const Options& options,
   const SignLattice& lattice = cells.lattice();
   Generator<Real, Index> generator(view, isovalue, options, cells, plan, surface);
   return for_layers(lattice.nz, [&](std::int64_t first, std::int64_t last) {
-    VertexWriter<Real> vertices(view, isovalue, options.border == Border::capped, lattice, plan,
-                                surface.positions.data());
+    VertexWriter<Real> vertices(view, isovalue, options, lattice, plan, arrays_of(surface));
     for (std::int64_t k = first; k < last; ++k) {
       for (std::int64_t j = 0; j < lattice.ny; ++j) vertices.write_row(j, k);
     }

@@ -147,16 +147,18 @@ std::size_t collect_crossings(const SignLattice& lattice, std::int64_t j, std::i
 }  // namespace
 
 template <class Real>
-VertexWriter<Real>::VertexWriter(const VolumeView& view, double isovalue, bool capped,
-                                 const SignLattice& lattice, const Plan& plan, Real* positions)
+VertexWriter<Real>::VertexWriter(const VolumeView& view, double isovalue, const Options& options,
+                                 const SignLattice& lattice, const Plan& plan,
+                                 const VertexArrays<Real>& arrays)
     : view_(view),
       strides_(view.effective_strides()),
       isovalue_(isovalue),
-      capped_(capped),
+      capped_(options.border == Border::capped),
       lattice_(lattice),
       plan_(plan),
-      positions_(positions),
-      geometry_(view, capped),
+      arrays_(arrays),
+      geometry_(view, options.border == Border::capped),
+      attributes_(view, options),
       index_(static_cast<std::size_t>(lattice.nx)),
       parameter_(static_cast<std::size_t>(lattice.nx)) {}
 
@@ -164,18 +166,20 @@ template <class Real>
 void VertexWriter<Real>::write_row(std::int64_t j, std::int64_t k) {
   const std::int64_t row = lattice_.row(j, k);
   const RowPlan& r = plan_.rows[static_cast<std::size_t>(row)];
-  Real* out = positions_ + 3 * plan_.first_vertex(row);
-  if (r.x != 0) write_crossings(j, k, 0, out);
-  out += 3 * static_cast<std::ptrdiff_t>(r.x);
-  if (r.y != 0) write_crossings(j, k, 1, out);
-  out += 3 * static_cast<std::ptrdiff_t>(r.y);
-  if (r.z != 0) write_crossings(j, k, 2, out);
-  out += 3 * static_cast<std::ptrdiff_t>(r.z);
-  if ((lattice_.flags[static_cast<std::size_t>(row)] & kRowZero) != 0) write_zeros(j, k, out);
+  std::int64_t first = plan_.first_vertex(row);
+  if (r.x != 0) write_crossings(j, k, 0, first);
+  first += r.x;
+  if (r.y != 0) write_crossings(j, k, 1, first);
+  first += r.y;
+  if (r.z != 0) write_crossings(j, k, 2, first);
+  first += r.z;
+  if ((lattice_.flags[static_cast<std::size_t>(row)] & kRowZero) != 0) write_zeros(j, k, first);
 }
 
 template <class Real>
-void VertexWriter<Real>::write_crossings(std::int64_t j, std::int64_t k, int axis, Real* out) {
+void VertexWriter<Real>::write_crossings(std::int64_t j, std::int64_t k, int axis,
+                                         std::int64_t first) {
+  Real* out = arrays_.positions + 3 * first;
   const std::size_t n = collect_crossings(lattice_, j, k, axis, index_.data());
   if (capped_) {
     const AnyMagnitudeReader magnitude(view_, isovalue_, true);
@@ -214,10 +218,12 @@ void VertexWriter<Real>::write_crossings(std::int64_t j, std::int64_t k, int axi
         put(m, geometry_.plane(z + parameter_[m]) + y_term + geometry_.x_term(index_[m]));
       }
   }
+  if (arrays_.with_attributes()) write_attributes(j, k, axis, n, first);
 }
 
 template <class Real>
-void VertexWriter<Real>::write_zeros(std::int64_t j, std::int64_t k, Real* out) {
+void VertexWriter<Real>::write_zeros(std::int64_t j, std::int64_t k, std::int64_t first) {
+  Real* out = arrays_.positions + 3 * first;
   const Crossings crossings(lattice_);
   const std::size_t n = collect(
       lattice_.words, [&](std::int64_t w) { return crossings.used_zeros(j, k, w); }, index_.data());
@@ -227,6 +233,22 @@ void VertexWriter<Real>::write_zeros(std::int64_t j, std::int64_t k, Real* out) 
     const Eigen::Vector3d p = line + geometry_.x_term(index_[m]);
     for (int d = 0; d < 3; ++d) out[3 * m + static_cast<std::size_t>(d)] = static_cast<Real>(p[d]);
   }
+  if (arrays_.with_attributes()) {
+    std::fill_n(parameter_.begin(), n, 0.0);
+    write_attributes(j, k, 0, n, first);
+  }
+}
+
+template <class Real>
+void VertexWriter<Real>::write_attributes(std::int64_t j, std::int64_t k, int axis,
+                                          std::size_t count, std::int64_t first) {
+  visit_sample_type(view_.type, [&](auto sample) {
+    const LatticeGradient<decltype(sample)> gradient(view_);
+    for (std::size_t m = 0; m < count; ++m) {
+      arrays_.put(first + static_cast<std::int64_t>(m),
+                  attributes_.at_edge(gradient, index_[m], j, k, axis, parameter_[m]));
+    }
+  });
 }
 
 template class VertexWriter<float>;

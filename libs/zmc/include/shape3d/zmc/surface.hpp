@@ -88,6 +88,13 @@ struct Surface {
 
   detail::Buffer<Real> positions;  ///< 3·n world coordinates, x y z of vertex 0 first.
   detail::Buffer<Index> indices;   ///< 3·m vertex ids, counter-clockwise seen from outside.
+  /// With Options::gradients, 3·n: the gradient of the samples in world units, by central differences
+  /// at lattice points (one-sided at the border and beside masked samples, 0 where neither side is
+  /// there), interpolated along lattice edges, averaged at centroids. On a cap it is 0.
+  detail::Buffer<Real> gradients;
+  /// With Options::normals, 3·n: the unit vector along the gradient that points from inside to
+  /// outside; on a cap the direction out of the volume. Zero where the gradient vanishes.
+  detail::Buffer<Real> normals;
   std::int64_t first_zero_face =
       0;  ///< Triangles [first_zero_face, first_closing) are of kind zero_face.
   std::int64_t first_closing = 0;  ///< Triangles [first_closing, m) are of kind closing.
@@ -105,6 +112,14 @@ struct Surface {
   /// #F by 3, rows of vertex ids.
   [[nodiscard]] Eigen::Map<const Triangles> F() const {
     return {indices.data(), triangle_count(), 3};
+  }
+  /// #V by 3, or empty.
+  [[nodiscard]] Eigen::Map<const Points> N() const {
+    return {normals.data(), static_cast<Eigen::Index>(normals.size() / 3), 3};
+  }
+  /// #V by 3, or empty.
+  [[nodiscard]] Eigen::Map<const Points> G() const {
+    return {gradients.data(), static_cast<Eigen::Index>(gradients.size() / 3), 3};
   }
   [[nodiscard]] TriangleKind kind(std::int64_t triangle) const {
     if (triangle < first_zero_face) return TriangleKind::patch;
