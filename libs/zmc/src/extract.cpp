@@ -122,6 +122,8 @@ Status extract(const VolumeView& view, double isovalue, const Options& options,
   surface.first_closing = surface.first_zero_face + per_quad * plan.counts.zero_faces;
   const std::int64_t triangles = surface.first_closing + plan.counts.closing_triangles;
   if (triangles == 0) return finish_empty(surface, Status::empty);
+  surface.positions.clear();  // what was there need not be moved
+  surface.indices.clear();
   surface.positions.resize(static_cast<std::size_t>(3 * vertices));
   surface.indices.resize(static_cast<std::size_t>(3 * triangles));
   if (!detail::generate(view, isovalue, options, cells, plan, detail::layer_loop(options, 0.5, 1.0),

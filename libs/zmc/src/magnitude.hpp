@@ -14,11 +14,14 @@ inline double magnitude_between(double sample, double isovalue) {
   return std::min(std::abs(sample - isovalue), kHugeMagnitude);
 }
 
+/// Crossings keep this share of their edge away from its ends.
+inline constexpr double kCrossingMargin = 0x1p-20;
+
 /// Place of the crossing on a lattice edge, as a share of the edge from its lower end: linear
-/// interpolation, kept 2⁻²⁰ away from both ends.
+/// interpolation, kept off both ends.
 inline double crossing_parameter(double lower_magnitude, double upper_magnitude) {
-  constexpr double kMargin = 0x1p-20;
-  return std::clamp(lower_magnitude / (lower_magnitude + upper_magnitude), kMargin, 1.0 - kMargin);
+  return std::clamp(lower_magnitude / (lower_magnitude + upper_magnitude), kCrossingMargin,
+                    1.0 - kCrossingMargin);
 }
 
 }  // namespace shape3d::zmc::detail

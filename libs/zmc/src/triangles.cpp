@@ -7,7 +7,8 @@
 
 #if SHAPE3D_ZMC_X86
 #include <immintrin.h>
-// GCC 12 takes the undefined pass-through operand inside its own intrinsics for a use (GCC bug 105593).
+// GCC 12 takes the undefined pass-through operand inside its own intrinsics for a use (GCC bug
+// 105593).
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
