@@ -22,19 +22,30 @@ void shift_row_up(Word* row, std::int64_t words) {
 template <class T>
 class Classifier {
  public:
-  Classifier(const VolumeView& view, double isovalue, const Options& options, SignLattice& lattice)
+  Classifier(const VolumeView& view, const std::vector<Classification>& targets,
+             const Options& options)
       : view_(view),
         strides_(view.effective_strides()),
-        threshold_(isovalue, options.inside),
         capped_(options.border == Border::capped),
-        lattice_(lattice) {}
+        targets_(targets) {
+    for (const Classification& target : targets) {
+      thresholds_.emplace_back(target.isovalue, options.inside);
+    }
+  }
 
-  /// Fills the rows of layers [first, last) of the lattice; counts samples that are not finite.
+  /// Fills the rows of layers [first, last) of the lattices; counts samples that are not finite.
   void classify_layers(std::int64_t first, std::int64_t last) {
     Scratch scratch;
     std::int64_t bad = 0;
     for (std::int64_t k = first; k < last; ++k) {
-      for (std::int64_t j = 0; j < lattice_.ny; ++j) bad += classify_row(j, k, scratch);
+      for (std::int64_t j = 0; j < targets_[0].lattice->ny; ++j) {
+        // A row is read once for all isovalues.
+        std::int64_t bad_in_row = 0;
+        for (std::size_t n = 0; n < targets_.size(); ++n) {
+          bad_in_row = classify_row(j, k, thresholds_[n], *targets_[n].lattice, scratch);
+        }
+        bad += bad_in_row;
+      }
     }
     if (bad != 0) not_finite_.fetch_add(bad, std::memory_order_relaxed);
   }
@@ -71,19 +82,20 @@ class Classifier {
     return static_cast<const T*>(view_.data) + j * strides_[1] + k * strides_[2];
   }
 
-  std::int64_t classify_row(std::int64_t j, std::int64_t k, Scratch& scratch) {
-    const std::int64_t row = lattice_.row(j, k);
-    Word* n = lattice_.n_bits.data() + row * lattice_.words;
-    Word* z = lattice_.z_bits.data() + row * lattice_.words;
-    Word* masked = lattice_.masked ? lattice_.cell_bits.data() + row * lattice_.words : nullptr;
-    std::uint8_t& flags = lattice_.flags[static_cast<std::size_t>(row)];
+  std::int64_t classify_row(std::int64_t j, std::int64_t k, const Threshold<T>& threshold,
+                            SignLattice& lattice, Scratch& scratch) const {
+    const std::int64_t row = lattice.row(j, k);
+    Word* n = lattice.n_bits.data() + row * lattice.words;
+    Word* z = lattice.z_bits.data() + row * lattice.words;
+    Word* masked = lattice.masked ? lattice.cell_bits.data() + row * lattice.words : nullptr;
+    std::uint8_t& flags = lattice.flags[static_cast<std::size_t>(row)];
     const std::int64_t margin = capped_ ? 1 : 0;
     j -= margin;
     k -= margin;
     if (j < 0 || k < 0 || j >= view_.dims[1] || k >= view_.dims[2]) {
-      std::fill_n(n, lattice_.words, Word{0});
-      std::fill_n(z, lattice_.words, Word{0});
-      if (masked != nullptr) std::fill_n(masked, lattice_.words, Word{0});
+      std::fill_n(n, lattice.words, Word{0});
+      std::fill_n(z, lattice.words, Word{0});
+      if (masked != nullptr) std::fill_n(masked, lattice.words, Word{0});
       flags = kRowPositive;
       return 0;
     }
@@ -96,13 +108,13 @@ class Classifier {
       samples = scratch.gathered.data();
     }
     const std::int64_t filled = (nx + 63) / 64;
-    std::fill(n + filled, n + lattice_.words, Word{0});
-    std::fill(z + filled, z + lattice_.words, Word{0});
-    scratch.not_finite.assign(static_cast<std::size_t>(lattice_.words), 0);
-    if (threshold_.rule == Threshold<T>::Rule::compare) {
-      classify_samples(samples, nx, threshold_, {n, z, scratch.not_finite.data()});
+    std::fill(n + filled, n + lattice.words, Word{0});
+    std::fill(z + filled, z + lattice.words, Word{0});
+    scratch.not_finite.assign(static_cast<std::size_t>(lattice.words), 0);
+    if (threshold.rule == Threshold<T>::Rule::compare) {
+      classify_samples(samples, nx, threshold, {n, z, scratch.not_finite.data()});
     } else {
-      const bool all = threshold_.rule == Threshold<T>::Rule::all_negative;
+      const bool all = threshold.rule == Threshold<T>::Rule::all_negative;
       for (std::int64_t w = 0; w < filled; ++w) n[w] = all ? below_mask(nx, w) : 0;
       std::fill_n(z, filled, Word{0});
     }
@@ -123,18 +135,18 @@ class Classifier {
                                       (any_positive != 0 || capped_ ? kRowPositive : 0) |
                                       (any_zero != 0 ? kRowZero : 0) | (bad != 0 ? kRowMasked : 0));
     if (capped_) {
-      shift_row_up(n, lattice_.words);
-      shift_row_up(z, lattice_.words);
-      if (masked != nullptr) shift_row_up(masked, lattice_.words);
+      shift_row_up(n, lattice.words);
+      shift_row_up(z, lattice.words);
+      if (masked != nullptr) shift_row_up(masked, lattice.words);
     }
     return bad;
   }
 
   const VolumeView& view_;
   std::array<std::int64_t, 3> strides_;
-  Threshold<T> threshold_;
   bool capped_;
-  SignLattice& lattice_;
+  const std::vector<Classification>& targets_;
+  std::vector<Threshold<T>> thresholds_;
   std::atomic<std::int64_t> not_finite_{0};
 };
 
@@ -161,10 +173,7 @@ void make_cell_bits(SignLattice& lattice) {
   }
 }
 
-}  // namespace
-
-bool classify(const VolumeView& view, double isovalue, const Options& options,
-              const LayerLoop& for_layers, SignLattice& lattice) {
+void resize(SignLattice& lattice, const VolumeView& view, const Options& options) {
   const std::int64_t margin = options.border == Border::capped ? 2 : 0;
   lattice.nx = view.dims[0] + margin;
   lattice.ny = view.dims[1] + margin;
@@ -176,21 +185,30 @@ bool classify(const VolumeView& view, double isovalue, const Options& options,
   lattice.z_bits.resize(size);
   lattice.flags.resize(static_cast<std::size_t>(lattice.rows()));
   lattice.n_bits.back() = lattice.z_bits.back() = 0;
+}
 
+}  // namespace
+
+bool classify(const VolumeView& view, const std::vector<Classification>& targets,
+              const Options& options, const LayerLoop& for_layers) {
+  for (const Classification& target : targets) resize(*target.lattice, view, options);
+  const std::int64_t layers = targets[0].lattice->nz;
   return visit_sample_type(view.type, [&](auto sample) {
-    Classifier<decltype(sample)> classifier(view, isovalue, options, lattice);
+    Classifier<decltype(sample)> classifier(view, targets, options);
     const auto body = [&](std::int64_t first, std::int64_t last) {
       classifier.classify_layers(first, last);
     };
-    if (!for_layers(lattice.nz, body)) return false;
+    if (!for_layers(layers, body)) return false;
     if (classifier.not_finite() == 0) return true;
     if (options.non_finite == NonFinite::error) classifier.report_not_finite();
-    lattice.masked = true;
-    lattice.cell_bits.resize(size);
-    lattice.cell_bits.back() = 0;
+    for (const Classification& target : targets) {
+      target.lattice->masked = true;
+      target.lattice->cell_bits.resize(target.lattice->n_bits.size());
+      target.lattice->cell_bits.back() = 0;
+    }
     classifier.forget_not_finite();
-    if (!for_layers(lattice.nz, body)) return false;
-    make_cell_bits(lattice);
+    if (!for_layers(layers, body)) return false;
+    for (const Classification& target : targets) make_cell_bits(*target.lattice);
     return true;
   });
 }

@@ -52,15 +52,7 @@ SHAPE3D_ZMC_INLINE void interpolate_body(const EdgeSamples<T>& edges, const std:
       upper[m] = edges.upper[at];
     }
     for (std::size_t m = 0; m < n; ++m) {
-      double a = std::abs(static_cast<double>(lower[m]) - edges.isovalue);
-      double b = std::abs(static_cast<double>(upper[m]) - edges.isovalue);
-      if constexpr (std::is_same_v<T, double>) {
-        a = a < kHugeMagnitude ? a : kHugeMagnitude;
-        b = b < kHugeMagnitude ? b : kHugeMagnitude;
-      }
-      double t = a / (a + b);
-      t = t < kCrossingMargin ? kCrossingMargin : t;
-      parameter[first + m] = t > 1.0 - kCrossingMargin ? 1.0 - kCrossingMargin : t;
+      parameter[first + m] = crossing_parameter<T>(lower[m], upper[m], edges.isovalue);
     }
   }
 }
@@ -188,9 +180,7 @@ void VertexWriter<Real>::write_crossings(std::int64_t j, std::int64_t k, int axi
   if (capped_) {
     const AnyMagnitudeReader magnitude(view_, isovalue_, true);
     for (std::size_t m = 0; m < n; ++m) {
-      const std::int64_t i = index_[m];
-      parameter_[m] = crossing_parameter(
-          magnitude(i, j, k), magnitude(i + (axis == 0), j + (axis == 1), k + (axis == 2)));
+      parameter_[m] = magnitude.crossing(index_[m], j, k, axis);
     }
   } else {
     visit_sample_type(view_.type, [&](auto sample) {
