@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "classify_row.hpp"
 #include "samples.hpp"
@@ -30,10 +31,10 @@ class Classifier {
 
   /// Fills the rows of layers [first, last) of the lattice; counts samples that are not finite.
   void classify_layers(std::int64_t first, std::int64_t last) {
-    detail::Buffer<T> gathered;
+    Scratch scratch;
     std::int64_t bad = 0;
     for (std::int64_t k = first; k < last; ++k) {
-      for (std::int64_t j = 0; j < lattice_.ny; ++j) bad += classify_row(j, k, gathered);
+      for (std::int64_t j = 0; j < lattice_.ny; ++j) bad += classify_row(j, k, scratch);
     }
     if (bad != 0) not_finite_.fetch_add(bad, std::memory_order_relaxed);
   }
@@ -60,11 +61,17 @@ class Classifier {
   }
 
  private:
+  /// Room for one row.
+  struct Scratch {
+    std::vector<T> gathered;  ///< Samples of a row that are not contiguous.
+    std::vector<Word> not_finite;
+  };
+
   const T* row_start(std::int64_t j, std::int64_t k) const {
     return static_cast<const T*>(view_.data) + j * strides_[1] + k * strides_[2];
   }
 
-  std::int64_t classify_row(std::int64_t j, std::int64_t k, detail::Buffer<T>& gathered) {
+  std::int64_t classify_row(std::int64_t j, std::int64_t k, Scratch& scratch) {
     const std::int64_t row = lattice_.row(j, k);
     Word* n = lattice_.n_bits.data() + row * lattice_.words;
     Word* z = lattice_.z_bits.data() + row * lattice_.words;
@@ -83,32 +90,35 @@ class Classifier {
     const std::int64_t nx = view_.dims[0];
     const T* samples = row_start(j, k);
     if (strides_[0] != 1) {
-      gathered.resize(static_cast<std::size_t>(nx));
+      scratch.gathered.resize(static_cast<std::size_t>(nx));
       for (std::int64_t i = 0; i < nx; ++i)
-        gathered[static_cast<std::size_t>(i)] = samples[i * strides_[0]];
-      samples = gathered.data();
+        scratch.gathered[static_cast<std::size_t>(i)] = samples[i * strides_[0]];
+      samples = scratch.gathered.data();
+    }
+    const std::int64_t filled = (nx + 63) / 64;
+    std::fill(n + filled, n + lattice_.words, Word{0});
+    std::fill(z + filled, z + lattice_.words, Word{0});
+    scratch.not_finite.assign(static_cast<std::size_t>(lattice_.words), 0);
+    if (threshold_.rule == Threshold<T>::Rule::compare) {
+      classify_samples(samples, nx, threshold_, {n, z, scratch.not_finite.data()});
+    } else {
+      const bool all = threshold_.rule == Threshold<T>::Rule::all_negative;
+      for (std::int64_t w = 0; w < filled; ++w) n[w] = all ? below_mask(nx, w) : 0;
+      std::fill_n(z, filled, Word{0});
     }
     Word any_negative = 0, any_zero = 0, any_positive = 0;
     std::int64_t bad = 0;
-    for (std::int64_t w = 0; w < lattice_.words; ++w) {
-      const auto count = static_cast<int>(std::clamp<std::int64_t>(nx - 64 * w, 0, 64));
-      Word negative = 0, zero = 0, not_finite = 0;
-      if (threshold_.rule == Threshold<T>::Rule::compare) {
-        classify_word(samples + 64 * w, count, threshold_, negative, zero, not_finite);
-      } else if (threshold_.rule == Threshold<T>::Rule::all_negative) {
-        negative = below_mask(nx, w);
-      }
+    for (std::int64_t w = 0; w < filled; ++w) {
+      const Word not_finite = scratch.not_finite[static_cast<std::size_t>(w)];
       if (not_finite != 0) {
-        negative &= ~not_finite;
+        n[w] &= ~not_finite;
         bad += __builtin_popcountll(not_finite);
       }
-      n[w] = negative;
-      z[w] = zero;
-      if (masked != nullptr) masked[w] = not_finite;
-      any_negative |= negative;
-      any_zero |= zero;
-      any_positive |= ~(negative | zero) & below_mask(nx, w);
+      any_negative |= n[w];
+      any_zero |= z[w];
+      any_positive |= ~(n[w] | z[w]) & below_mask(nx, w);
     }
+    if (masked != nullptr) std::copy(scratch.not_finite.begin(), scratch.not_finite.end(), masked);
     flags = static_cast<std::uint8_t>((any_negative != 0 ? kRowNegative : 0) |
                                       (any_positive != 0 || capped_ ? kRowPositive : 0) |
                                       (any_zero != 0 ? kRowZero : 0) | (bad != 0 ? kRowMasked : 0));

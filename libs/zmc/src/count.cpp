@@ -3,22 +3,11 @@
 #include <algorithm>
 #include <mutex>
 
-#include "cell_words.hpp"
+#include "count_cells.hpp"
 #include "crossings.hpp"
 
 namespace shape3d::zmc::detail {
 namespace {
-
-/// How often each case occurred, and sums over configurations.
-struct Tally {
-  std::vector<std::int64_t> cases = std::vector<std::int64_t>(6561, 0);
-  std::int64_t patches = 0;
-
-  void add(const Tally& other) {
-    for (std::size_t p = 0; p < cases.size(); ++p) cases[p] += other.cases[p];
-    patches += other.patches;
-  }
-};
 
 class Counter {
  public:
@@ -29,10 +18,8 @@ class Counter {
         regions_(regions),
         options_(options),
         plan_(plan),
-        crossings_(lattice) {
-    for (unsigned mask = 0; mask < 256; ++mask)
-      case_of_plain_[mask] = cells.table().case_of_mask[mask];
-  }
+        crossings_(lattice),
+        tables_(triangle_tables(options.triangulation, false)) {}
 
   /// Crossings, patches and inserted faces of layers [first, last).
   void count_layers(std::int64_t first, std::int64_t last) {
@@ -55,11 +42,13 @@ class Counter {
     std::int64_t total = 0;
     for (std::int64_t k = first; k < last; ++k) {
       for (std::int64_t j = 0; j < lattice_.ny; ++j) {
+        const std::int64_t row = lattice_.row(j, k);
+        if ((lattice_.flags[static_cast<std::size_t>(row)] & kRowZero) == 0) continue;
         std::uint32_t used = 0;
         for (std::int64_t w = 0; w < lattice_.words; ++w) {
           used += static_cast<std::uint32_t>(__builtin_popcountll(crossings_.used_zeros(j, k, w)));
         }
-        plan_.rows[static_cast<std::size_t>(lattice_.row(j, k))].first_vertex += used;
+        plan_.rows[static_cast<std::size_t>(row)].first_vertex += used;
         total += used;
       }
     }
@@ -94,11 +83,18 @@ class Counter {
     const CellTable& table = cells_.table();
     Counts& counts = plan_.counts;
     counts.patches = tally_.patches;
-    for (std::size_t p = 0; p < tally_.cases.size(); ++p) {
-      if (tally_.cases[p] == 0) continue;
-      counts.cells_with_patch += tally_.cases[p];
-      for (const std::uint8_t c : table.cases[p].face_case)
-        counts.faces_by_case[c - 1u] += tally_.cases[p];
+    const auto add_cells = [&](std::size_t p, std::int64_t cells) {
+      counts.cells_with_patch += cells;
+      for (const std::uint8_t c : table.cases[p].face_case) counts.faces_by_case[c - 1u] += cells;
+    };
+    for (std::size_t mask = 0; mask < tally_.plain.size(); ++mask) {
+      if (tally_.plain[mask] == 0) continue;
+      add_cells(table.case_of_mask[mask], tally_.plain[mask]);
+      if (tables_.plain[mask].ambiguous == 0)
+        counts.patches += tables_.plain[mask].patches * tally_.plain[mask];
+    }
+    for (std::size_t p = 0; p < tally_.by_case.size(); ++p) {
+      if (tally_.by_case[p] != 0) add_cells(p, tally_.by_case[p]);
     }
     counts.all_zero_cells = regions_.cell_count();
 
@@ -136,89 +132,17 @@ class Counter {
 
  private:
   void count_row(std::int64_t j, std::int64_t k, LayerPlan& layer, Tally& tally) {
-    RowPlan plan;
-    const auto flags = [&](std::int64_t a, std::int64_t b) {
-      return a < lattice_.ny && b < lattice_.nz
-                 ? lattice_.flags[static_cast<std::size_t>(lattice_.row(a, b))]
-                 : 0;
-    };
-    constexpr unsigned kBoth = kRowNegative | kRowPositive;
-    const unsigned here = flags(j, k);
-    if ((here & kBoth) == kBoth)
-      plan.x = count_words([&](std::int64_t w) { return crossings_.along_x(j, k, w); });
-    if (((here | flags(j + 1, k)) & kBoth) == kBoth) {
-      plan.y = count_words([&](std::int64_t w) { return crossings_.along_y(j, k, w); });
-    }
-    if (((here | flags(j, k + 1)) & kBoth) == kBoth) {
-      plan.z = count_words([&](std::int64_t w) { return crossings_.along_z(j, k, w); });
-    }
+    RowPlan& plan = plan_.rows[static_cast<std::size_t>(lattice_.row(j, k))];
     if (j + 1 < lattice_.ny && k + 1 < lattice_.nz) {
-      const CellRow row = cell_row(lattice_, j, k);
-      if ((row.any_flags & kBoth) == kBoth) {
-        if ((row.any_flags & kRowZero) != 0) {
-          count_cells<true>(row, j, k, plan, layer, tally);
-        } else {
-          count_cells<false>(row, j, k, plan, layer, tally);
-        }
-      }
+      plan = count_cell_row(lattice_, cells_, tables_, j, k, layer, tally);
+      return;
     }
-    plan_.rows[static_cast<std::size_t>(lattice_.row(j, k))] = plan;
-  }
-
-  template <class Words>
-  std::uint32_t count_words(Words&& words) const {
-    std::uint32_t count = 0;
-    for (std::int64_t w = 0; w < lattice_.words; ++w)
-      count += static_cast<std::uint32_t>(__builtin_popcountll(words(w)));
-    return count;
-  }
-
-  /// Triangles and centroids of a cell row; the latter are kept in first_vertex until finish().
-  template <bool Zeros>
-  void count_cells(const CellRow& row, std::int64_t j, std::int64_t k, RowPlan& plan,
-                   LayerPlan& layer, Tally& tally) {
-    const auto triangulation = static_cast<std::size_t>(options_.triangulation);
-    const CellTable& table = cells_.table();
+    plan = RowPlan{};  // the last row or layer has no cells of its own
     for (std::int64_t w = 0; w < lattice_.words; ++w) {
-      const CellWords c = cell_words<Zeros>(row, w, below_mask(lattice_.nx - 1, w));
-      for (Word left = c.active; left != 0; left &= left - 1) {
-        const int b = __builtin_ctzll(left);
-        const std::int64_t i = 64 * w + b;
-        const bool zero = Zeros && ((c.with_zero >> b) & 1u) != 0;
-        const unsigned negative = gather_corners(c.n, c.n_next, b);
-        const unsigned p =
-            zero ? table.case_of_mask[negative | gather_corners(c.z, c.z_next, b) << 8]
-                 : case_of_plain_[negative];
-        const CellConfig& config = cells_.config(table.cases[p], i, j, k);
-        plan.first_triangle += config.by_triangulation[triangulation].triangles;
-        plan.first_vertex += config.by_triangulation[triangulation].centroids;
-        ++tally.cases[p];
-        tally.patches += config.patches;
-        if (zero && config.zero_vertices != 0) use_zero_vertices(config, row, i, j, layer);
-      }
+      plan.x += static_cast<std::uint32_t>(__builtin_popcountll(crossings_.along_x(j, k, w)));
+      plan.y += static_cast<std::uint32_t>(__builtin_popcountll(crossings_.along_y(j, k, w)));
+      plan.z += static_cast<std::uint32_t>(__builtin_popcountll(crossings_.along_z(j, k, w)));
     }
-  }
-
-  void use_zero_vertices(const CellConfig& config, const CellRow& row, std::int64_t i,
-                         std::int64_t j, LayerPlan& layer) {
-    for (int corner = 0; corner < 8; ++corner) {
-      if (((config.zero_vertices >> corner) & 1) != 0)
-        mark_used(lattice_, i + (corner >> 2), row.row[corner & 3]);
-    }
-    for (unsigned edges = config.zero_edges; edges != 0; edges &= edges - 1) {
-      const int e = __builtin_ctz(edges);
-      use_edge(kCellEdges[e][0], kCellEdges[e][1], i, j, layer);
-    }
-  }
-
-  /// Notes a side along the lattice edge between two corners of cell (i, j).
-  void use_edge(int v, int w, std::int64_t i, std::int64_t j, LayerPlan& layer) const {
-    const auto &p = kCellVertices[v], &q = kCellVertices[w];
-    const int axis = p[0] != q[0] ? 0 : p[1] != q[1] ? 1 : 2;
-    const std::int64_t x = i + std::min(p[0], q[0]), y = j + std::min(p[1], q[1]);
-    auto& edges = std::min(p[2], q[2]) == 0 ? layer.lower_edges : layer.upper_edges;
-    edges.push_back(3 * static_cast<std::uint64_t>(x + lattice_.nx * y) +
-                    static_cast<std::uint64_t>(axis));
   }
 
   void use_vertices(const InsertedFace& face, std::int64_t k, LayerPlan& layer) {
@@ -228,7 +152,7 @@ class Counter {
       if (a < 0) continue;
       mark_used(lattice_, face.i + kCellVertices[a][0],
                 lattice_.row(face.j + kCellVertices[a][1], k + kCellVertices[a][2]));
-      if (b >= 0) use_edge(a, b, face.i, face.j, layer);
+      if (b >= 0) use_lattice_edge(lattice_, a, b, face.i, face.j, layer);
     }
   }
 
@@ -238,7 +162,7 @@ class Counter {
   const Options& options_;
   Plan& plan_;
   Crossings crossings_;
-  std::array<std::uint16_t, 256> case_of_plain_{};
+  const TriangleTables& tables_;
   std::mutex mutex_;
   Tally tally_;
 };

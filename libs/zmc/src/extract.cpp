@@ -59,8 +59,9 @@ void check_arguments(const VolumeView& view, double isovalue, const Options& opt
 
 LayerLoop layer_loop(const Options& options, double from, double to) {
   const int threads = resolve_threads(options.threads);
-  return [&options, threads, from, to](
-             std::int64_t count, const std::function<void(std::int64_t, std::int64_t)>& body) {
+  return [&options, threads, from, to, reached = from](
+             std::int64_t count,
+             const std::function<void(std::int64_t, std::int64_t)>& body) mutable {
     constexpr std::int64_t kGrain = 1;
     if (!options.progress) {
       parallel_ranges(count, kGrain, threads, body);
@@ -73,7 +74,8 @@ LayerLoop layer_loop(const Options& options, double from, double to) {
       parallel_ranges(last - first, kGrain, threads,
                       [&](std::int64_t a, std::int64_t b) { body(first + a, first + b); });
       const double share = static_cast<double>(last) / static_cast<double>(count);
-      if (!options.progress(from + (to - from) * share)) return false;
+      reached = std::max(reached, from + (to - from) * share);  // several loops may share the range
+      if (!options.progress(reached)) return false;
     }
     return true;
   };
@@ -122,6 +124,8 @@ Status extract(const VolumeView& view, double isovalue, const Options& options,
   surface.first_closing = surface.first_zero_face + per_quad * plan.counts.zero_faces;
   const std::int64_t triangles = surface.first_closing + plan.counts.closing_triangles;
   if (triangles == 0) return finish_empty(surface, Status::empty);
+  surface.positions.clear();  // what was there need not be moved
+  surface.indices.clear();
   surface.positions.resize(static_cast<std::size_t>(3 * vertices));
   surface.indices.resize(static_cast<std::size_t>(3 * triangles));
   if (!detail::generate(view, isovalue, options, cells, plan, detail::layer_loop(options, 0.5, 1.0),

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
-#include "generate_vertices.hpp"
+#include "crossings.hpp"
+#include "geometry.hpp"
 #include "triangles.hpp"
+#include "vertices.hpp"
 
 namespace shape3d::zmc::detail {
 namespace {
@@ -21,7 +23,7 @@ class Generator final : public CentroidSink {
         magnitude_(view, isovalue, options.border == Border::capped),
         options_(options),
         surface_(surface),
-        tables_(cells, options.triangulation, geometry_.mirrored()) {}
+        tables_(triangle_tables(options.triangulation, geometry_.mirrored())) {}
 
   /// Triangles and centroids of layers [first, last).
   void layers(std::int64_t first, std::int64_t last) const {
@@ -129,7 +131,7 @@ class Generator final : public CentroidSink {
   AnyMagnitudeReader magnitude_;
   const Options& options_;
   Surface<Real, Index>& surface_;
-  TriangleTables tables_;
+  const TriangleTables& tables_;
 };
 
 }  // namespace
@@ -140,23 +142,13 @@ bool generate(const VolumeView& view, double isovalue, const Options& options,
               Surface<Real, Index>& surface) {
   const SignLattice& lattice = cells.lattice();
   Generator<Real, Index> generator(view, isovalue, options, cells, plan, surface);
-  const bool capped = options.border == Border::capped;
-  const Geometry geometry(view, capped);
-  return visit_sample_type(view.type, [&](auto sample) {
-    using T = decltype(sample);
-    const auto layers = [&](const auto& magnitude) {
-      return for_layers(lattice.nz, [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t k = first; k < last; ++k) {
-          for (std::int64_t j = 0; j < lattice.ny; ++j) {
-            generate_row_vertices(lattice, plan, geometry, magnitude, j, k,
-                                  surface.positions.data());
-          }
-        }
-        generator.layers(first, last);
-      });
-    };
-    return capped ? layers(MagnitudeReader<T, true>(view, isovalue))
-                  : layers(MagnitudeReader<T, false>(view, isovalue));
+  return for_layers(lattice.nz, [&](std::int64_t first, std::int64_t last) {
+    VertexWriter<Real> vertices(view, isovalue, options.border == Border::capped, lattice, plan,
+                                surface.positions.data());
+    for (std::int64_t k = first; k < last; ++k) {
+      for (std::int64_t j = 0; j < lattice.ny; ++j) vertices.write_row(j, k);
+    }
+    generator.layers(first, last);
   });
 }
 

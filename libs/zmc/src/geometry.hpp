@@ -40,9 +40,7 @@ class Geometry {
     p += Eigen::Vector3d(low[0], low[1], low[2]);
     if (vertex < 12) {
       const int axis = edge_axis(vertex);
-      const std::int64_t x = i + low[0], y = j + low[1], z = k + low[2];
-      p[axis] += crossing_parameter(magnitude(x, y, z),
-                                    magnitude(x + (axis == 0), y + (axis == 1), z + (axis == 2)));
+      p[axis] += magnitude.crossing(i + low[0], j + low[1], k + low[2], axis);
     }
     return world(p[0], p[1], p[2]);
   }

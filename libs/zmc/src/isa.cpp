@@ -12,6 +12,7 @@ Isa detect() {
                     __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt");
   const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") &&
                       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+                      __builtin_cpu_supports("avx512vpopcntdq") &&
                       __builtin_cpu_supports("avx512dq");
   if (avx512) return Isa::avx512;
   if (avx2) return Isa::avx2;

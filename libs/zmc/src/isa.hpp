@@ -8,7 +8,7 @@ namespace shape3d::zmc::detail {
 enum class Isa {
   portable,  ///< What the compiler was told to assume.
   avx2,      ///< AVX2, BMI1, BMI2, POPCNT, LZCNT.
-  avx512     ///< The same and AVX-512 F, BW, VL, DQ.
+  avx512     ///< The same and AVX-512 F, BW, VL, DQ, VPOPCNTDQ.
 };
 
 /// The best set of this processor, or the one forced by set_isa().
@@ -25,7 +25,8 @@ Isa set_isa(Isa isa);
 #define SHAPE3D_ZMC_X86 1
 #define SHAPE3D_ZMC_TARGET_AVX2 __attribute__((target("avx2,bmi,bmi2,popcnt,lzcnt")))
 #define SHAPE3D_ZMC_TARGET_AVX512 \
-  __attribute__((target("avx512f,avx512bw,avx512vl,avx512dq,avx2,bmi,bmi2,popcnt,lzcnt")))
+  __attribute__((                 \
+      target("avx512f,avx512bw,avx512vl,avx512dq,avx512vpopcntdq,avx2,bmi,bmi2,popcnt,lzcnt")))
 #else
 #define SHAPE3D_ZMC_X86 0
 #define SHAPE3D_ZMC_TARGET_AVX2

@@ -1,81 +1,60 @@
 #include "triangles.hpp"
 
 #include "cell_words.hpp"
+#include "corner_bytes.hpp"
 #include "crossings.hpp"
 #include "isa.hpp"
 
+#if SHAPE3D_ZMC_X86
+#include <immintrin.h>
+// GCC 12 takes the undefined pass-through operand inside its own intrinsics for a use (GCC bug
+// 105593).
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+
 namespace shape3d::zmc::detail {
-
-TriangleTables::TriangleTables(const LatticeCells& cells, Triangulation how, bool mirrored)
-    : triangulation(static_cast<std::size_t>(how)) {
-  const CellTable& table = cells.table();
-  for (unsigned mask = 0; mask < 256; ++mask) {
-    const CellCase& cell_case = table.cases[table.case_of_mask[mask]];
-    const Triangulated& t = table.configs[cell_case.first_config].by_triangulation[triangulation];
-    plain[mask] = {t.first, t.triangles,
-                   static_cast<std::uint8_t>(cell_case.comparisons != 0 || t.centroids != 0)};
-  }
-  constexpr std::size_t kPadding = 64;  // vector loads may read beyond the last triangle
-  lanes.reserve(table.slots.size() + kPadding);
-  for (std::size_t t = 0; t < table.slots.size(); ++t) {
-    const std::size_t corner = t % 3;
-    const std::size_t from = mirrored && corner != 0 ? t - corner + (3 - corner) : t;
-    const std::uint8_t slot = table.slots[from];
-    lanes.push_back(slot < kSlots ? kSlotLane[slot]
-                                  : static_cast<std::uint8_t>(kCentroidLane + slot - kSlots));
-  }
-  lanes.resize(lanes.size() + kPadding, 0);
-}
-
 namespace {
 
 SHAPE3D_ZMC_INLINE int popcount(Word word) { return __builtin_popcountll(word); }
 
-/// The crossings round 64 cells: along x on the four rows, along y on rows 0 and 2, along z on rows
-/// 0 and 1.
-struct CrossingWords {
-  std::array<Word, 4> x{};
-  std::array<Word, 2> y{}, z{};
-};
-
-template <bool Zeros>
-SHAPE3D_ZMC_INLINE CrossingWords crossing_words(const CellWords& c, Word in_cells) {
-  CrossingWords words;
-  const auto between = [](Word n, Word z, Word m, Word y) {
-    return Zeros ? (n ^ m) & ~(z | y) : n ^ m;
-  };
-  for (int r = 0; r < 4; ++r)
-    words.x[r] = between(c.n[r], c.z[r], c.n_next[r], c.z_next[r]) & in_cells;
-  words.y[0] = between(c.n[0], c.z[0], c.n[1], c.z[1]);
-  words.y[1] = between(c.n[2], c.z[2], c.n[3], c.z[3]);
-  words.z[0] = between(c.n[0], c.z[0], c.n[2], c.z[2]);
-  words.z[1] = between(c.n[1], c.z[1], c.n[3], c.z[3]);
-  return words;
-}
-
 CrossingWords masked_crossing_words(const Crossings& crossings, std::int64_t j, std::int64_t k,
                                     std::int64_t w) {
-  CrossingWords words;
-  for (int r = 0; r < 4; ++r) words.x[r] = crossings.along_x(j + (r & 1), k + (r >> 1), w);
-  words.y = {crossings.along_y(j, k, w), crossings.along_y(j, k + 1, w)};
-  words.z = {crossings.along_z(j, k, w), crossings.along_z(j + 1, k, w)};
+  CrossingWords words{};
+  for (int r = 0; r < 4; ++r) words[r] = crossings.along_x(j + (r & 1), k + (r >> 1), w);
+  words[4] = crossings.along_y(j, k, w);
+  words[5] = crossings.along_y(j, k + 1, w);
+  words[6] = crossings.along_z(j, k, w);
+  words[7] = crossings.along_z(j + 1, k, w);
   return words;
 }
 
-/// Ids of the next vertex of each kind round a cell row.
+/// One cell row of an extraction.
+template <class Index>
+struct RowJob {
+  const LatticeCells& cells;
+  const Plan& plan;
+  const TriangleTables& tables;
+  const CentroidSink& centroids;
+  std::int64_t j, k;
+  Index* out;
+  CornerBytes corner_bytes;
+};
+
+/// Ids of the next vertices round a cell row, by lane (crossings 0–7, zeros) and the next centroid.
 template <class Index>
 struct RunningIds {
-  std::array<Index, 4> x{}, zero{};
-  std::array<Index, 2> y{}, z{};
+  std::array<Index, 8> crossing{};
+  std::array<Index, 4> zero{};
   Index centroid = 0;
 
   RunningIds(const SignLattice& lattice, const Plan& plan, const CellRow& row) {
     for (int r = 0; r < 4; ++r) {
       const RowPlan& p = plan.rows[static_cast<std::size_t>(row.row[r])];
       const auto first = static_cast<Index>(plan.first_vertex(row.row[r]));
-      x[r] = first;
-      if (r % 2 == 0) y[r / 2] = first + static_cast<Index>(p.x);
-      if (r < 2) z[r] = first + static_cast<Index>(p.x) + static_cast<Index>(p.y);
+      crossing[r] = first;
+      if (r % 2 == 0) crossing[4 + r / 2] = first + static_cast<Index>(p.x);
+      if (r < 2) crossing[6 + r] = first + static_cast<Index>(p.x) + static_cast<Index>(p.y);
       zero[r] = first + static_cast<Index>(p.x) + static_cast<Index>(p.y) + static_cast<Index>(p.z);
     }
     centroid = zero[0];
@@ -86,30 +65,42 @@ struct RunningIds {
   }
 };
 
-template <class Index>
-struct RowJob {
-  const LatticeCells& cells;
-  const Plan& plan;
-  const TriangleTables& tables;
-  const CentroidSink& centroids;
-  std::int64_t j, k;
-  Index* out;
+struct CellTriangles {
+  const std::uint8_t* lane;
+  int triangles;
 };
 
-/// The triangles of a configuration that is ambiguous, has zeros or centroids. `id` is indexed by
-/// lane.
+/// Triangles of a cell that is ambiguous or has centroids, whose ids are appended to
+/// `centroid_ids`.
 template <class Index>
-inline const Triangulated& special_cell(const RowJob<Index>& job, unsigned mask, std::int64_t i,
-                                        Index& next_centroid, Index* centroid_ids) {
-  const CellConfig& config = job.cells.config_of_mask(mask, i, job.j, job.k);
-  const Triangulated& t = config.by_triangulation[job.tables.triangulation];
+__attribute__((noinline)) CellTriangles special_cell(const RowJob<Index>& job, unsigned p,
+                                                     std::int64_t i, Index& next_centroid,
+                                                     Index* centroid_ids) {
+  const CellTable& table = job.cells.table();
+  const Triangulated& t =
+      job.cells.config(table.cases[p], i, job.j, job.k).by_triangulation[job.tables.triangulation];
   for (int n = 0; n < t.centroids; ++n) {
-    const std::uint32_t members =
-        job.cells.table().centroids[static_cast<std::size_t>(t.first_centroid + n)];
+    const std::uint32_t members = table.centroids[static_cast<std::size_t>(t.first_centroid + n)];
     job.centroids.put(static_cast<std::int64_t>(next_centroid), members, i, job.j, job.k);
     centroid_ids[n] = next_centroid++;
   }
-  return t;
+  return {job.tables.lanes.data() + t.first, t.triangles};
+}
+
+/// Looks a cell up by its corner masks.
+template <bool Zeros, class Index>
+SHAPE3D_ZMC_INLINE CellTriangles look_up(const RowJob<Index>& job, unsigned negative, unsigned zero,
+                                         std::int64_t i, Index& next_centroid,
+                                         Index* centroid_ids) {
+  const CellTable& table = job.cells.table();
+  const bool plain = !Zeros || zero == 0;
+  const unsigned p = plain ? 0 : table.case_of_mask[negative | zero << 8];
+  const PatternTriangles& pattern = plain ? job.tables.plain[negative] : job.tables.by_case[p];
+  if ((pattern.ambiguous | pattern.centroids) != 0) {
+    return special_cell(job, plain ? table.case_of_mask[negative] : p, i, next_centroid,
+                        centroid_ids);
+  }
+  return {job.tables.lanes.data() + pattern.first, pattern.triangles};
 }
 
 template <bool Zeros, class Index>
@@ -118,7 +109,8 @@ SHAPE3D_ZMC_INLINE void generate_body(const RowJob<Index>& job, const CellRow& r
   const Crossings crossings(lattice);
   Index* out = job.out;
   RunningIds<Index> next(lattice, job.plan, row);
-  std::array<Index, 32> id{};  // by lane
+  std::array<Index, kLanes> id{};
+  alignas(64) std::array<std::uint8_t, 64> negative, zero{};
   for (std::int64_t w = 0; w < lattice.words; ++w) {
     const Word in_cells = below_mask(lattice.nx - 1, w);
     const CellWords c = cell_words<Zeros>(row, w, in_cells);
@@ -126,39 +118,26 @@ SHAPE3D_ZMC_INLINE void generate_body(const RowJob<Index>& job, const CellRow& r
     const CrossingWords cross = row.valid == nullptr
                                     ? crossing_words<Zeros>(c, in_cells)
                                     : masked_crossing_words(crossings, job.j, job.k, w);
+    if (c.active != 0) {
+      job.corner_bytes(c.n, negative.data());
+      if (Zeros) job.corner_bytes(c.z, zero.data());
+    }
     for (Word left = c.active; left != 0; left &= left - 1) {
       const int b = __builtin_ctzll(left);
       const Word below = (Word{1} << b) - 1;
-      for (int r = 0; r < 4; ++r)
-        id[r] = static_cast<Index>(next.x[r] + popcount(cross.x[r] & below));
-      for (int r = 0; r < 2; ++r) {
-        id[4 + r] = static_cast<Index>(next.y[r] + popcount(cross.y[r] & below));
-        id[6 + r] = static_cast<Index>(next.z[r] + popcount(cross.z[r] & below));
-        id[12 + r] = id[4 + r] + static_cast<Index>((cross.y[r] >> b) & 1u);
-        id[14 + r] = id[6 + r] + static_cast<Index>((cross.z[r] >> b) & 1u);
+      for (int lane = 0; lane < 8; ++lane) {
+        id[lane] = static_cast<Index>(next.crossing[lane] + popcount(cross[lane] & below));
+        if (lane >= 4) id[lane + 8] = id[lane] + static_cast<Index>((cross[lane] >> b) & 1u);
       }
-      unsigned mask = gather_corners(c.n, c.n_next, b);
-      std::uint32_t first = 0;
-      int triangles = 0;
-      const bool zero = Zeros && ((c.with_zero >> b) & 1u) != 0;
-      if (!zero && job.tables.plain[mask].special == 0) {
-        first = job.tables.plain[mask].first;
-        triangles = job.tables.plain[mask].triangles;
-      } else {
-        if (zero) {
-          mask |= gather_corners(c.z, c.z_next, b) << 8;
-          for (int r = 0; r < 4; ++r) {
-            id[16 + r] = static_cast<Index>(next.zero[r] + popcount(c.used[r] & below));
-            id[20 + r] = id[16 + r] + static_cast<Index>((c.used[r] >> b) & 1u);
-          }
+      if (Zeros && zero[b] != 0) {
+        for (int r = 0; r < 4; ++r) {
+          id[kZeroLane + r] = static_cast<Index>(next.zero[r] + popcount(c.used[r] & below));
+          id[kZeroLane + 4 + r] = id[kZeroLane + r] + static_cast<Index>((c.used[r] >> b) & 1u);
         }
-        const Triangulated& t =
-            special_cell(job, mask, 64 * w + b, next.centroid, id.data() + kCentroidLane);
-        first = t.first;
-        triangles = t.triangles;
       }
-      const std::uint8_t* lane = job.tables.lanes.data() + first;
-      for (int t = 0; t < triangles; ++t) {
+      auto [lane, triangles] = look_up<Zeros>(job, negative[b], zero[b], 64 * w + b, next.centroid,
+                                              id.data() + kCentroidLane);
+      for (; triangles > 0; --triangles) {
         out[0] = id[lane[0]];
         out[1] = id[lane[1]];
         out[2] = id[lane[2]];
@@ -166,13 +145,10 @@ SHAPE3D_ZMC_INLINE void generate_body(const RowJob<Index>& job, const CellRow& r
         lane += 3;
       }
     }
-    for (int r = 0; r < 4; ++r) {
-      next.x[r] += static_cast<Index>(popcount(cross.x[r]));
-      if constexpr (Zeros) next.zero[r] += static_cast<Index>(popcount(c.used[r]));
-    }
-    for (int r = 0; r < 2; ++r) {
-      next.y[r] += static_cast<Index>(popcount(cross.y[r]));
-      next.z[r] += static_cast<Index>(popcount(cross.z[r]));
+    for (int lane = 0; lane < 8; ++lane)
+      next.crossing[lane] += static_cast<Index>(popcount(cross[lane]));
+    if constexpr (Zeros) {
+      for (int r = 0; r < 4; ++r) next.zero[r] += static_cast<Index>(popcount(c.used[r]));
     }
   }
 }
@@ -181,9 +157,97 @@ template <bool Zeros, class Index>
 void generate_portable(const RowJob<Index>& job, const CellRow& row) {
   generate_body<Zeros>(job, row);
 }
+
+#if SHAPE3D_ZMC_X86
 template <bool Zeros, class Index>
 SHAPE3D_ZMC_TARGET_AVX2 void generate_avx2(const RowJob<Index>& job, const CellRow& row) {
   generate_body<Zeros>(job, row);
+}
+
+/// The same for 32-bit ids: the ids round a cell are one vector of ranks, and its triangles one
+/// permutation of them.
+template <bool Zeros>
+SHAPE3D_ZMC_TARGET_AVX512 void generate_avx512(const RowJob<std::int32_t>& job,
+                                               const CellRow& row) {
+  const SignLattice& lattice = job.cells.lattice();
+  const Crossings crossings(lattice);
+  std::int32_t* out = job.out;
+  RunningIds<std::int32_t> next(lattice, job.plan, row);
+  __m512i next_crossing = _mm512_cvtepi32_epi64(
+      _mm256_loadu_si256(reinterpret_cast<const __m256i*>(next.crossing.data())));
+  __m256i next_zero =
+      _mm256_cvtepi32_epi64(_mm_loadu_si128(reinterpret_cast<const __m128i*>(next.zero.data())));
+  alignas(64) std::array<std::uint8_t, 64> negative, zero{};
+  alignas(32) std::array<std::int32_t, 8> centroid_ids{};
+  for (std::int64_t w = 0; w < lattice.words; ++w) {
+    const Word in_cells = below_mask(lattice.nx - 1, w);
+    const CellWords c = cell_words<Zeros>(row, w, in_cells);
+    if (!Zeros && c.active == 0 && row.valid == nullptr) continue;
+    const CrossingWords cross_words = row.valid == nullptr
+                                          ? crossing_words<Zeros>(c, in_cells)
+                                          : masked_crossing_words(crossings, job.j, job.k, w);
+    const __m512i cross = _mm512_loadu_si512(cross_words.data());
+    const __m256i used = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(c.used.data()));
+    if (c.active != 0) {
+      job.corner_bytes(c.n, negative.data());
+      if (Zeros) job.corner_bytes(c.z, zero.data());
+    }
+    for (Word left = c.active; left != 0; left &= left - 1) {
+      const int b = __builtin_ctzll(left);
+      const auto below = static_cast<long long>((Word{1} << b) - 1);
+      const __m512i rank = _mm512_add_epi64(
+          next_crossing, _mm512_popcnt_epi64(_mm512_and_si512(cross, _mm512_set1_epi64(below))));
+      const __m512i here =
+          _mm512_and_si512(_mm512_srl_epi64(cross, _mm_cvtsi32_si128(b)), _mm512_set1_epi64(1));
+      const __m512i ids =
+          _mm512_inserti64x4(_mm512_castsi256_si512(_mm512_cvtepi64_epi32(rank)),
+                             _mm512_cvtepi64_epi32(_mm512_add_epi64(rank, here)), 1);
+      __m512i more_ids = _mm512_setzero_si512();
+      if (Zeros && zero[b] != 0) {
+        const __m256i zero_rank = _mm256_add_epi64(
+            next_zero, _mm256_popcnt_epi64(_mm256_and_si256(used, _mm256_set1_epi64x(below))));
+        const __m256i zero_here =
+            _mm256_and_si256(_mm256_srl_epi64(used, _mm_cvtsi32_si128(b)), _mm256_set1_epi64x(1));
+        const __m256i zero_ids = _mm256_inserti128_si256(
+            _mm256_castsi128_si256(_mm256_cvtepi64_epi32(zero_rank)),
+            _mm256_cvtepi64_epi32(_mm256_add_epi64(zero_rank, zero_here)), 1);
+        more_ids = _mm512_castsi256_si512(zero_ids);
+      }
+      const std::int32_t before = next.centroid;
+      auto [lane, triangles] =
+          look_up<Zeros>(job, negative[b], zero[b], 64 * w + b, next.centroid, centroid_ids.data());
+      if (next.centroid != before) {
+        more_ids = _mm512_inserti64x4(
+            more_ids, _mm256_load_si256(reinterpret_cast<const __m256i*>(centroid_ids.data())), 1);
+      }
+      int left_ids = 3 * triangles;
+      do {
+        const __m512i lanes =
+            _mm512_cvtepu8_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(lane)));
+        const int now = left_ids < 16 ? left_ids : 16;
+        _mm512_mask_storeu_epi32(out, static_cast<__mmask16>((1u << now) - 1u),
+                                 _mm512_permutex2var_epi32(ids, lanes, more_ids));
+        out += now;
+        lane += now;
+        left_ids -= now;
+      } while (left_ids > 0);
+    }
+    next_crossing = _mm512_add_epi64(next_crossing, _mm512_popcnt_epi64(cross));
+    if constexpr (Zeros) next_zero = _mm256_add_epi64(next_zero, _mm256_popcnt_epi64(used));
+  }
+}
+#endif
+
+template <bool Zeros, class Index>
+void dispatch(Isa isa, const RowJob<Index>& job, const CellRow& row) {
+#if SHAPE3D_ZMC_X86
+  if constexpr (sizeof(Index) == 4) {
+    if (isa == Isa::avx512) return generate_avx512<Zeros>(job, row);
+  }
+  if (isa != Isa::portable) return generate_avx2<Zeros>(job, row);
+#endif
+  static_cast<void>(isa);
+  generate_portable<Zeros>(job, row);
 }
 
 }  // namespace
@@ -195,13 +259,19 @@ void generate_cell_row(const LatticeCells& cells, const Plan& plan, const Triang
   constexpr unsigned kBoth = kRowNegative | kRowPositive;
   const CellRow row = cell_row(cells.lattice(), j, k);
   if ((row.any_flags & kBoth) != kBoth) return;
-  const RowJob<Index> job{
-      cells, plan, tables, centroids, j, k, triangles + 3 * plan.first_triangle(row.row[0])};
-  const bool zeros = (row.any_flags & kRowZero) != 0;
-  if (active_isa() == Isa::portable) {
-    zeros ? generate_portable<true>(job, row) : generate_portable<false>(job, row);
+  const Isa isa = active_isa();
+  const RowJob<Index> job{cells,
+                          plan,
+                          tables,
+                          centroids,
+                          j,
+                          k,
+                          triangles + 3 * plan.first_triangle(row.row[0]),
+                          corner_bytes(isa)};
+  if ((row.any_flags & kRowZero) != 0) {
+    dispatch<true>(isa, job, row);
   } else {
-    zeros ? generate_avx2<true>(job, row) : generate_avx2<false>(job, row);
+    dispatch<false>(isa, job, row);
   }
 }
 

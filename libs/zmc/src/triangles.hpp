@@ -20,28 +20,35 @@ class CentroidSink {
                    std::int64_t k) const = 0;
 };
 
-/// How the triangles of a cell without zero samples are found; by its negative corner bits.
-struct PlainCell {
-  std::uint32_t first = 0;  ///< In the slots.
+/// What a sign pattern gives, where that does not depend on comparisons.
+struct PatternTriangles {
+  std::uint32_t first = 0;  ///< In the lanes.
   std::uint8_t triangles = 0;
-  std::uint8_t special = 1;  ///< Ambiguous or with centroids: look the configuration up.
+  std::uint8_t centroids = 0;
+  std::uint8_t ambiguous = 0;
+  std::uint8_t zero_vertices = 0;  ///< Corner bits.
+  std::uint16_t zero_edges = 0;    ///< Bit e: cell edge e carries a patch edge.
+  std::uint16_t patches = 0;
 };
 
-/// Slots as places in two tables of 16 ids: crossings of the rows along x 0–3, along y 4–5, along z
-/// 6–7 and the same one sample further from 8 on; used zeros 16–19 and 20–23; centroids from 24 on.
+/// Ids round a cell by lane: crossings along x 0–3, along y 4–5, along z 6–7, the same one sample
+/// further from 8 on (12–15); used zeros 16–19 and 20–23; centroids from 24 on.
+inline constexpr int kZeroLane = 16;
 inline constexpr int kCentroidLane = 24;
-constexpr std::array<std::uint8_t, kSlots> kSlotLane{0,  4,  12, 6, 14, 16, 20, 1, 7,  15,
-                                                     17, 21, 2,  5, 13, 18, 22, 3, 19, 23};
+inline constexpr int kLanes = 32;
+inline constexpr std::array<std::uint8_t, kSlots> kSlotLane{0,  4,  12, 6, 14, 16, 20, 1, 7,  15,
+                                                            17, 21, 2,  5, 13, 18, 22, 3, 19, 23};
 
-/// All that the kernels share during one extraction.
+/// The cell table as the kernels read it.
 struct TriangleTables {
-  TriangleTables(const LatticeCells& cells, Triangulation triangulation, bool mirrored);
-
-  std::size_t triangulation;
-  std::array<PlainCell, 256> plain;
-  std::vector<std::uint8_t>
-      lanes;  ///< CellTable::slots as lanes, turned over in a left-handed frame; padded.
+  std::size_t triangulation = 0;
+  std::array<PatternTriangles, 256> plain;  ///< By negative corner bits, for cells without zeros.
+  std::vector<PatternTriangles> by_case;    ///< By P.
+  std::vector<std::uint8_t> lanes;  ///< CellTable::slots as lanes, turned over if mirrored; padded.
 };
+
+/// Generated at first use, once for each combination.
+const TriangleTables& triangle_tables(Triangulation triangulation, bool mirrored);
 
 /// Writes the triangles of the cells (·, j, k).
 template <class Index>

@@ -75,10 +75,16 @@ void find_inserted_faces(const LatticeCells& cells, const ZeroRegions& regions, 
     for (const std::int64_t row : r) zeros |= lattice.flags[static_cast<std::size_t>(row)];
     if ((zeros & kRowZero) == 0) continue;
     for (std::int64_t w = 0; w < lattice.words; ++w) {
-      Word any = 0;
-      for (const std::int64_t row : r)
-        any |= load(lattice.z_row(row) + w) | load_next(lattice.z_row(row), w);
-      if (any == 0) continue;
+      // Both kinds of face have a zero edge; most words with zeros have none.
+      std::array<Word, 4> z{}, z_next{};
+      for (int n = 0; n < 4; ++n) {
+        z[n] = load(lattice.z_row(r[n]) + w);
+        z_next[n] = load_next(lattice.z_row(r[n]), w);
+      }
+      Word zero_edge =
+          ((z[0] | z_next[1]) & (z[1] | z_next[0])) | ((z[0] | z_next[2]) & (z[2] | z_next[0]));
+      zero_edge |= (z[2] & (z_next[2] | z[3])) | (z[1] & (z_next[1] | z[3]));
+      if (zero_edge == 0) continue;
       std::array<std::array<CornerWords, 2>, 4> c;
       for (int n = 0; n < 4; ++n)
         c[n] = {corner_words(lattice, r[n], w, false), corner_words(lattice, r[n], w, true)};

@@ -1,22 +1,39 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <new>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "shape3d/zmc/export.hpp"
+
 namespace shape3d::zmc {
 
 namespace detail {
-/// std::allocator whose containers leave new elements uninitialised on resize().
+/// Memory for large arrays, on huge pages where the system has them: a first touch costs a page
+/// fault, which is dearer than the writing itself. @throws std::bad_alloc
+[[nodiscard]] SHAPE3D_ZMC_EXPORT void* allocate_array(std::size_t bytes);
+SHAPE3D_ZMC_EXPORT void free_array(void* array, std::size_t bytes) noexcept;
+
+/// Allocator whose containers leave new elements uninitialised on resize().
 template <class T>
-struct UninitializedAllocator : std::allocator<T> {
+struct ArrayAllocator {
+  using value_type = T;
+
+  ArrayAllocator() = default;
   template <class U>
-  struct rebind {
-    using other = UninitializedAllocator<U>;
-  };
+  ArrayAllocator(const ArrayAllocator<U>& /*other*/) noexcept {
+  }  // NOLINT(google-explicit-constructor): as allocators are
+
+  [[nodiscard]] T* allocate(std::size_t count) {
+    if (count > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
+    return static_cast<T*>(allocate_array(count * sizeof(T)));
+  }
+  void deallocate(T* array, std::size_t count) noexcept { free_array(array, count * sizeof(T)); }
   template <class U>
   void construct(U* p) noexcept {
     ::new (static_cast<void*>(p)) U;
@@ -25,9 +42,11 @@ struct UninitializedAllocator : std::allocator<T> {
   void construct(U* p, Args&&... args) {
     ::new (static_cast<void*>(p)) U(std::forward<Args>(args)...);
   }
+  friend bool operator==(const ArrayAllocator& /*a*/, const ArrayAllocator& /*b*/) { return true; }
+  friend bool operator!=(const ArrayAllocator& /*a*/, const ArrayAllocator& /*b*/) { return false; }
 };
 template <class T>
-using Buffer = std::vector<T, UninitializedAllocator<T>>;
+using Buffer = std::vector<T, ArrayAllocator<T>>;
 }  // namespace detail
 
 /// Where a triangle comes from.

@@ -1,0 +1,265 @@
+#include "picture.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+#include <Eigen/Geometry>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkLightKit.h>
+#include <vtkNew.h>
+#include <vtkOpenGLRenderer.h>
+#include <vtkPNGWriter.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderStepsPass.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSMPTools.h>
+#include <vtkSSAOPass.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkWindowToImageFilter.h>
+
+#include "child_process.hpp"
+#include "vtk_mesh.hpp"
+
+namespace shape3d::apps {
+namespace {
+
+constexpr int kSamples = 2;  // a pixel is the mean of kSamples² rendered ones
+
+struct NamedColor {
+  std::string_view name;
+  Color color;
+};
+constexpr NamedColor kColors[] = {{"bone", {0.93, 0.88, 0.78}},   {"skin", {0.87, 0.68, 0.56}},
+                                  {"red", {0.77, 0.25, 0.22}},    {"green", {0.36, 0.60, 0.36}},
+                                  {"blue", {0.31, 0.48, 0.70}},   {"yellow", {0.88, 0.75, 0.32}},
+                                  {"orange", {0.85, 0.54, 0.25}}, {"purple", {0.52, 0.39, 0.63}},
+                                  {"grey", {0.62, 0.62, 0.62}},   {"white", {0.96, 0.96, 0.96}}};
+
+struct NamedView {
+  std::string_view name;
+  View view;
+  std::array<double, 3> from, up;  // in LPS: left, posterior, superior
+};
+constexpr NamedView kViews[] = {{"front", View::front, {0, -1, 0}, {0, 0, 1}},
+                                {"back", View::back, {0, 1, 0}, {0, 0, 1}},
+                                {"left", View::left, {1, 0, 0}, {0, 0, 1}},
+                                {"right", View::right, {-1, 0, 0}, {0, 0, 1}},
+                                {"top", View::top, {0, 0, 1}, {0, -1, 0}},
+                                {"bottom", View::bottom, {0, 0, -1}, {0, -1, 0}},
+                                {"oblique", View::oblique, {0.62, -1, 0.28}, {0, 0, 1}}};
+
+// Mean of the triangle normals at each vertex, by area. Not VTK's filter, whose threads do not
+// outlive fork().
+vtkSmartPointer<vtkFloatArray> vertex_normals(const MeshView& mesh) {
+  std::vector<Eigen::Vector3f> sums(static_cast<std::size_t>(mesh.vertex_count),
+                                    Eigen::Vector3f::Zero());
+  const auto point = [&mesh](std::int64_t v) {
+    return Eigen::Map<const Eigen::Vector3d>(mesh.positions + 3 * v);
+  };
+  std::visit(
+      [&](const auto* ids) {
+        for (std::int64_t t = 0; t < mesh.triangle_count; ++t, ids += 3) {
+          const Eigen::Vector3d a = point(ids[0]), b = point(ids[1]), c = point(ids[2]);
+          const Eigen::Vector3f normal = (b - a).cross(c - a).cast<float>();
+          for (int i = 0; i < 3; ++i) sums[static_cast<std::size_t>(ids[i])] += normal;
+        }
+      },
+      mesh.indices);
+  auto normals = vtkSmartPointer<vtkFloatArray>::New();
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(mesh.vertex_count);
+  for (std::int64_t v = 0; v < mesh.vertex_count; ++v) {
+    const Eigen::Vector3f n = sums[static_cast<std::size_t>(v)].stableNormalized();
+    std::copy(n.data(), n.data() + 3, normals->GetPointer(3 * v));
+  }
+  return normals;
+}
+
+vtkSmartPointer<vtkActor> make_actor(const SceneMesh& item) {
+  const vtkSmartPointer<vtkPolyData> data = borrow_polydata(item.mesh);
+  data->GetPointData()->SetNormals(vertex_normals(item.mesh));
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->ScalarVisibilityOff();
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  vtkProperty* property = actor->GetProperty();
+  property->SetColor(item.color[0], item.color[1], item.color[2]);
+  property->SetOpacity(item.opacity);
+  property->SetInterpolationToPhong();
+  property->SetAmbient(0.08);
+  property->SetDiffuse(0.92);
+  property->SetSpecular(0.18);
+  property->SetSpecularPower(24.0);
+  if (item.mesh.space == "RAS") actor->SetScale(-1.0, -1.0, 1.0);
+  return actor;
+}
+
+void place_camera(vtkRenderer* renderer, View view, double aspect) {
+  const NamedView& place = *std::find_if(std::begin(kViews), std::end(kViews),
+                                         [view](const NamedView& v) { return v.view == view; });
+  double bounds[6];
+  renderer->ComputeVisiblePropBounds(bounds);
+  const Eigen::Vector3d low(bounds[0], bounds[2], bounds[4]), high(bounds[1], bounds[3], bounds[5]);
+  const Eigen::Vector3d centre = 0.5 * (low + high);
+  const Eigen::Vector3d from = Eigen::Map<const Eigen::Vector3d>(place.from.data()).normalized();
+  const Eigen::Vector3d up = Eigen::Map<const Eigen::Vector3d>(place.up.data());
+  const Eigen::Vector3d right = up.cross(from).normalized(), above = from.cross(right);
+  constexpr double kAngle = 22.0;  // of the view, vertically
+  const double slope = std::tan(kAngle * 3.14159265358979 / 360.0);
+  // The nearest place from which all eight corners are inside the view, with a margin.
+  double distance = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d p((corner & 1) != 0 ? high[0] : low[0],
+                            (corner & 2) != 0 ? high[1] : low[1],
+                            (corner & 4) != 0 ? high[2] : low[2]);
+    const Eigen::Vector3d d = p - centre;
+    const double across = std::max(std::abs(d.dot(above)), std::abs(d.dot(right)) / aspect);
+    distance = std::max(distance, d.dot(from) + 1.04 * across / slope);
+  }
+  if (distance <= 0.0) distance = 1.0;
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const Eigen::Vector3d eye = centre + distance * from;
+  camera->SetFocalPoint(centre[0], centre[1], centre[2]);
+  camera->SetPosition(eye[0], eye[1], eye[2]);
+  camera->SetViewUp(up[0], up[1], up[2]);
+  camera->SetViewAngle(kAngle);
+  renderer->ResetCameraClippingRange();
+}
+
+// Mean of kSamples × kSamples pixels.
+vtkSmartPointer<vtkImageData> shrink(vtkImageData* large, int width, int height) {
+  auto small = vtkSmartPointer<vtkImageData>::New();
+  small->SetDimensions(width, height, 1);
+  small->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  const auto* from = static_cast<const unsigned char*>(large->GetScalarPointer());
+  auto* to = static_cast<unsigned char*>(small->GetScalarPointer());
+  const int stride = 3 * kSamples * width;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < 3 * width; ++x) {
+      int sum = 0;
+      for (int sy = 0; sy < kSamples; ++sy) {
+        for (int sx = 0; sx < kSamples; ++sx) {
+          sum += from[static_cast<std::ptrdiff_t>(kSamples * y + sy) * stride +
+                      3 * (kSamples * (x / 3) + sx) + x % 3];
+        }
+      }
+      *to++ = static_cast<unsigned char>((sum + kSamples * kSamples / 2) / (kSamples * kSamples));
+    }
+  }
+  return small;
+}
+
+std::string draw(const std::vector<SceneMesh>& meshes, const PictureOptions& options) {
+  vtkSMPTools::Initialize(1);
+  vtkSMPTools::SetBackend("Sequential");
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(options.background[0], options.background[1], options.background[2]);
+  bool opaque = true;
+  for (const SceneMesh& item : meshes) {
+    if (item.mesh.triangle_count == 0) continue;
+    renderer->AddActor(make_actor(item));
+    opaque = opaque && item.opacity >= 1.0;
+  }
+  renderer->AutomaticLightCreationOff();
+  vtkNew<vtkLightKit> lights;
+  lights->SetKeyLightIntensity(0.85);
+  lights->SetKeyToFillRatio(2.6);
+  lights->SetKeyToHeadRatio(3.5);
+  lights->SetKeyLightAngle(48.0, -28.0);
+  lights->AddLightsToRenderer(renderer);
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->SetAlphaBitPlanes(1);
+  window->SetSize(kSamples * options.width, kSamples * options.height);
+  window->AddRenderer(renderer);
+  place_camera(renderer, options.view, static_cast<double>(options.width) / options.height);
+  if (opaque) {
+    double bounds[6];
+    renderer->ComputeVisiblePropBounds(bounds);
+    const double diagonal =
+        Eigen::Vector3d(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]).norm();
+    vtkNew<vtkRenderStepsPass> steps;
+    vtkNew<vtkSSAOPass> occlusion;
+    occlusion->SetRadius(0.05 * diagonal);
+    occlusion->SetBias(0.0005 * diagonal);
+    occlusion->SetKernelSize(64);
+    occlusion->BlurOn();
+    occlusion->SetDelegatePass(steps);
+    vtkOpenGLRenderer::SafeDownCast(renderer)->SetPass(occlusion);
+  } else {
+    renderer->SetUseDepthPeeling(1);
+    renderer->SetMaximumNumberOfPeels(16);
+    renderer->SetOcclusionRatio(0.0);
+  }
+  window->Render();
+  vtkNew<vtkWindowToImageFilter> capture;
+  capture->SetInput(window);
+  capture->ReadFrontBufferOff();
+  capture->SetInputBufferTypeToRGB();
+  capture->Update();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(shrink(capture->GetOutput(), options.width, options.height));
+  writer->WriteToMemoryOn();
+  writer->Write();
+  vtkUnsignedCharArray* bytes = writer->GetResult();
+  return {reinterpret_cast<const char*>(bytes->GetPointer(0)),
+          static_cast<std::size_t>(bytes->GetNumberOfValues())};
+}
+
+ChildResult draw_on(const std::string& display, const std::vector<SceneMesh>& meshes,
+                    const PictureOptions& options) {
+  return run_in_child([&] {
+    setenv("DISPLAY", display.c_str(), 1);
+    return draw(meshes, options);
+  });
+}
+
+}  // namespace
+
+std::optional<View> view_named(std::string_view name) {
+  for (const NamedView& view : kViews) {
+    if (view.name == name) return view.view;
+  }
+  return std::nullopt;
+}
+
+std::optional<Color> color_named(std::string_view name) {
+  for (const NamedColor& color : kColors) {
+    if (color.name == name) return color.color;
+  }
+  unsigned value = 0;
+  if (name.size() != 7 || name[0] != '#') return std::nullopt;
+  const auto [end, error] = std::from_chars(name.data() + 1, name.data() + 7, value, 16);
+  if (error != std::errc{} || end != name.data() + 7) return std::nullopt;
+  return Color{(value >> 16) / 255.0, (value >> 8 & 255) / 255.0, (value & 255) / 255.0};
+}
+
+std::string draw_png(const std::vector<SceneMesh>& meshes, const PictureOptions& options) {
+  const bool anything = std::any_of(meshes.begin(), meshes.end(), [](const SceneMesh& item) {
+    return item.mesh.triangle_count > 0;
+  });
+  if (!anything) throw PictureError("there is no triangle to draw");
+  if (const char* display = std::getenv("DISPLAY");
+      display != nullptr && *display != '\0' && !options.private_display) {
+    ChildResult result = draw_on(display, meshes, options);
+    if (result.ok) return std::move(result.output);
+  }
+  const PrivateDisplay display;
+  ChildResult result = draw_on(display.name(), meshes, options);
+  if (!result.ok) throw PictureError("the picture could not be drawn: " + result.error);
+  return std::move(result.output);
+}
+
+}  // namespace shape3d::apps

@@ -1,0 +1,84 @@
+#include "program.hpp"
+
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include <CLI/CLI.hpp>
+
+#include "common/interrupt.hpp"
+#include "common/memory_limit.hpp"
+#include "common/text.hpp"
+
+namespace shape3d::apps {
+namespace {
+
+constexpr int kFailure = 1, kUsage = 2;
+
+int fail(const std::string& sentence, int status) {
+  std::cerr << "shape3d: " << sentence << '\n';
+  return status;
+}
+
+void add_shared_options(CLI::App& app, Settings& settings) {
+  app.add_flag("-q,--quiet", settings.quiet, "No report, no warnings, no progress; errors only");
+  app.add_option("--threads", settings.threads, "Threads to use; 0 stands for all processors (the default)")
+      ->check(CLI::Range(0, 4096))
+      ->type_name("N");
+  app.add_option("--json", settings.json, "Write the report as JSON")->type_name("FILE");
+}
+
+}  // namespace
+
+void warn(const Settings& settings, const std::string& sentence) {
+  if (!settings.quiet) std::cerr << "shape3d: warning: " << sentence << '\n';
+}
+
+int run_program(int argc, char** argv) {
+  install_interrupt_handler();
+  Settings settings;
+  CLI::App app("Surfaces from volumes by Zero-crossing Marching Cubes: closed and sign-neutral for every volume.");
+  app.name("shape3d");
+  app.set_version_flag("--version", "shape3d " SHAPE3D_VERSION);
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  app.footer(
+      "Examples:\n"
+      "  shape3d info scan/                         what a DICOM folder holds\n"
+      "  shape3d extract scan/ --iso 226 -o bone.ply\n"
+      "  shape3d check bone.ply\n"
+      "  shape3d render bone.ply -o bone.png\n"
+      "'shape3d COMMAND --help' explains a command.");
+  add_info(app, settings);
+  add_extract(app, settings);
+  add_contours(app, settings);
+  add_check(app, settings);
+  add_render(app, settings);
+  add_compare(app, settings);
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) add_shared_options(*command, settings);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app.help();
+    return 0;
+  } catch (const CLI::CallForVersion& version) {
+    std::cout << version.what() << '\n';
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return fail(std::string(error.what()) + "; 'shape3d --help' lists the commands", kUsage);
+  }
+  try {
+    settings.run();
+    std::cout.flush();
+    if (!std::cout) return fail("standard output cannot be written", kFailure);
+    return 0;
+  } catch (const UsageError& error) {
+    return fail(error.what(), kUsage);
+  } catch (const std::bad_alloc&) {
+    return fail("not enough memory; " + bytes_to_text(available_memory()) + " are available", kFailure);
+  } catch (const std::exception& error) {
+    return fail(error.what(), kFailure);
+  }
+}
+
+}  // namespace shape3d::apps

@@ -1,0 +1,40 @@
+#include "triangles.hpp"
+
+namespace shape3d::zmc::detail {
+namespace {
+
+TriangleTables make_tables(Triangulation triangulation, bool mirrored) {
+  const CellTable& table = cell_table();
+  TriangleTables tables;
+  tables.triangulation = static_cast<std::size_t>(triangulation);
+  for (const CellCase& cell_case : table.cases) {
+    const CellConfig& config = table.configs[cell_case.first_config];
+    const Triangulated& t = config.by_triangulation[tables.triangulation];
+    tables.by_case.push_back({t.first, t.triangles, t.centroids,
+                              static_cast<std::uint8_t>(cell_case.comparisons != 0),
+                              config.zero_vertices, config.zero_edges, config.patches});
+  }
+  for (unsigned mask = 0; mask < 256; ++mask)
+    tables.plain[mask] = tables.by_case[table.case_of_mask[mask]];
+  constexpr std::size_t kPadding = 64;  // vector loads may read beyond the last triangle
+  tables.lanes.reserve(table.slots.size() + kPadding);
+  for (std::size_t t = 0; t < table.slots.size(); ++t) {
+    const std::size_t corner = t % 3;
+    const std::uint8_t slot = table.slots[mirrored && corner != 0 ? t - corner + (3 - corner) : t];
+    tables.lanes.push_back(
+        slot < kSlots ? kSlotLane[slot] : static_cast<std::uint8_t>(kCentroidLane + slot - kSlots));
+  }
+  tables.lanes.resize(tables.lanes.size() + kPadding, 0);
+  return tables;
+}
+
+}  // namespace
+
+const TriangleTables& triangle_tables(Triangulation triangulation, bool mirrored) {
+  static const std::array<TriangleTables, 4> all{
+      make_tables(Triangulation::compact, false), make_tables(Triangulation::compact, true),
+      make_tables(Triangulation::centroid, false), make_tables(Triangulation::centroid, true)};
+  return all[2 * static_cast<std::size_t>(triangulation) + (mirrored ? 1 : 0)];
+}
+
+}  // namespace shape3d::zmc::detail
