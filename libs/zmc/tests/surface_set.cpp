@@ -216,6 +216,19 @@ class Converter {
 
 }  // namespace
 
+reference::Vertex vertex_at(const Eigen::Vector3d& place, const reference::Volume& volume) {
+  Lattice low{}, high{};
+  std::int64_t fractions = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis] = static_cast<std::int64_t>(std::floor(place[axis]));
+    high[axis] = static_cast<std::int64_t>(std::ceil(place[axis]));
+    fractions += high[axis] - low[axis];
+    if (low[axis] < 0 || high[axis] >= volume.dims[axis]) fractions = 3;
+  }
+  if (fractions > 1) throw std::runtime_error("a vertex that is not on a lattice edge");
+  return {volume.index(low[0], low[1], low[2]), volume.index(high[0], high[1], high[2])};
+}
+
 shape3d::test::Exempt at_border_or_mask(const reference::Volume& volume) {
   return [&volume](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
     Lattice first{}, last{};

@@ -50,6 +50,11 @@ template <class Index>
                  volume, outside);
 }
 
+/// The reference's name of the vertex at a place that is a sample or on a lattice edge.
+/// @throws std::runtime_error  it is neither.
+[[nodiscard]] reference::Vertex vertex_at(const Eigen::Vector3d& place,
+                                          const reference::Volume& volume);
+
 /// Exempts the edges at which the surface may end: those with a cell round them that is masked or
 /// outside the volume.
 [[nodiscard]] shape3d::test::Exempt at_border_or_mask(const reference::Volume& volume);
