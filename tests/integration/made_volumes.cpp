@@ -1,6 +1,6 @@
 #include "made_volumes.hpp"
 
-#include <fcntl.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -76,6 +76,8 @@ std::string read_bytes(const std::filesystem::path& path) {
 }
 
 void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
+  // Overwriting a file makes some file systems wait for the disk.
+  std::filesystem::remove(path);
   std::ofstream file(path, std::ios::binary);
   file << bytes;
   if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
@@ -85,13 +87,12 @@ ConsoleCapture::ConsoleCapture() {
   std::cout.flush();
   std::cerr.flush();
   std::fflush(nullptr);
-  const int file = open((folder_ / "console").c_str(), O_CREAT | O_RDWR | O_APPEND, 0600);
-  if (file < 0) throw std::runtime_error("cannot capture the console");
+  file_ = memfd_create("console", 0);
+  if (file_ < 0) throw std::runtime_error("cannot capture the console");
   for (const int descriptor : {1, 2}) {
     saved_[descriptor - 1] = dup(descriptor);
-    dup2(file, descriptor);
+    dup2(file_, descriptor);
   }
-  close(file);
 }
 
 ConsoleCapture::~ConsoleCapture() {
@@ -107,7 +108,11 @@ std::string ConsoleCapture::stop() {
     close(saved_[descriptor - 1]);
     saved_[descriptor - 1] = -1;
   }
-  return read_bytes(folder_ / "console");
+  std::string text(static_cast<std::size_t>(lseek(file_, 0, SEEK_END)), '\0');
+  const ssize_t got = pread(file_, text.data(), text.size(), 0);
+  close(file_);
+  text.resize(got < 0 ? 0 : static_cast<std::size_t>(got));
+  return text;
 }
 
 }  // namespace shape3d::test

@@ -35,7 +35,7 @@ std::vector<double> read_doubles(const std::filesystem::path& path);
 std::string read_bytes(const std::filesystem::path& path);
 void write_bytes(const std::filesystem::path& path, const std::string& bytes);
 
-/// What standard output and standard error of the process get while one exists goes to a file:
+/// What standard output and standard error of the process get while one exists goes to memory:
 /// descriptors, so that libraries are heard, too.
 class ConsoleCapture {
  public:
@@ -48,7 +48,7 @@ class ConsoleCapture {
   std::string stop();
 
  private:
-  TemporaryFolder folder_;
+  int file_ = -1;
   int saved_[2] = {-1, -1};
 };
 
