@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include <Eigen/Geometry>
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkFloatArray.h>
@@ -25,6 +24,7 @@
 #include <vtkSSAOPass.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
+#include <Eigen/Geometry>
 
 #include "child_process.hpp"
 #include "vtk_mesh.hpp"
