@@ -23,6 +23,7 @@ struct RenderArguments {
   std::vector<double> opacities;
   std::string view = "front";
   std::string background = "white";
+  bool largest = false;
   bool offscreen = false;
 };
 
@@ -92,7 +93,8 @@ void render(const RenderArguments& arguments, const Settings& settings) {
   std::vector<SceneMesh> scene;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     scene.push_back({view_of(meshes[i].mesh), colors[i],
-                     i < arguments.opacities.size() ? arguments.opacities[i] : 1.0});
+                     i < arguments.opacities.size() ? arguments.opacities[i] : 1.0,
+                     arguments.largest});
   }
   progress.stage("drawing " + arguments.output);
   file.write(draw_png(scene, options));
@@ -138,6 +140,8 @@ void add_render(CLI::App& app, Settings& settings) {
   command
       ->add_option("--background", arguments->background, "Color of the background (default white)")
       ->type_name("COLOR");
+  command->add_flag("--largest", arguments->largest,
+                    "Only the component of the most triangles of each mesh");
   command->add_flag("--offscreen", arguments->offscreen, "Draw under Xvfb even if DISPLAY is set");
   command->footer(
       "Examples:\n"
