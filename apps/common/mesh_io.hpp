@@ -53,8 +53,9 @@ enum class MeshEncoding { binary, binary_big_endian, ascii };
 /// Writes a mesh; does not commit the file.
 ///
 /// Coordinates are exact in PLY and VTP (double) and in text (shortest decimals that read back the
-/// same); binary STL has floats. The space stands as "SPACE=LPS" in a comment (PLY, OBJ, OFF), the header
-/// (STL) or the field data (VTP), where 3D Slicer looks for it. Arrays are written to VTP only.
+/// same); binary STL has floats. The space stands as "SPACE=LPS" in a comment (PLY, OBJ, OFF), the
+/// header (STL) or the field data (VTP), where 3D Slicer looks for it. Arrays are written to VTP
+/// only.
 /// @throws FileError  writing failed; the format cannot number the vertices or triangles (PLY 2³²
 /// ids, STL 2³²
 ///         triangles); a coordinate is beyond the range of float in STL.

@@ -43,7 +43,8 @@ std::optional<Scalar> scalar_named(std::string_view name) {
 // Without decimals where it has none.
 std::string plain(double number) {
   std::array<char, 400> text;
-  const auto format = number == std::floor(number) ? std::chars_format::fixed : std::chars_format::general;
+  const auto format =
+      number == std::floor(number) ? std::chars_format::fixed : std::chars_format::general;
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number, format).ptr};
 }
 

@@ -199,7 +199,8 @@ void write_stl(OutputFile& file, const MeshView& mesh, MeshEncoding encoding) {
       };
       file.write("facet normal");
       write_vector(normal_of(mesh.positions + 3 * ids[0], mesh.positions + 3 * ids[1],
-                             mesh.positions + 3 * ids[2]).data());
+                             mesh.positions + 3 * ids[2])
+                       .data());
       file.write(" outer loop\n");
       for (const std::int64_t id : ids) {
         file.write("  vertex");

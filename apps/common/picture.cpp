@@ -5,9 +5,10 @@
 #include <cmath>
 #include <cstdlib>
 
-#include <Eigen/Geometry>
 #include <vtkActor.h>
+#include <vtkActorCollection.h>
 #include <vtkCamera.h>
+#include <vtkCleanPolyData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkLightKit.h>
@@ -15,7 +16,9 @@
 #include <vtkOpenGLRenderer.h>
 #include <vtkPNGWriter.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataConnectivityFilter.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderStepsPass.h>
@@ -25,6 +28,7 @@
 #include <vtkSSAOPass.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
+#include <Eigen/Geometry>
 
 #include "child_process.hpp"
 #include "vtk_mesh.hpp"
@@ -38,11 +42,11 @@ struct NamedColor {
   std::string_view name;
   Color color;
 };
-constexpr NamedColor kColors[] = {{"bone", {0.93, 0.88, 0.78}},   {"skin", {0.87, 0.68, 0.56}},
+constexpr NamedColor kColors[] = {{"bone", {0.96, 0.92, 0.84}},   {"skin", {0.87, 0.68, 0.56}},
                                   {"red", {0.77, 0.25, 0.22}},    {"green", {0.36, 0.60, 0.36}},
                                   {"blue", {0.31, 0.48, 0.70}},   {"yellow", {0.88, 0.75, 0.32}},
                                   {"orange", {0.85, 0.54, 0.25}}, {"purple", {0.52, 0.39, 0.63}},
-                                  {"grey", {0.62, 0.62, 0.62}},   {"white", {0.96, 0.96, 0.96}}};
+                                  {"grey", {0.62, 0.62, 0.62}},   {"white", {1.0, 1.0, 1.0}}};
 
 struct NamedView {
   std::string_view name;
@@ -89,7 +93,17 @@ vtkSmartPointer<vtkActor> make_actor(const SceneMesh& item) {
   const vtkSmartPointer<vtkPolyData> data = borrow_polydata(item.mesh);
   data->GetPointData()->SetNormals(vertex_normals(item.mesh));
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
+  vtkNew<vtkPolyDataConnectivityFilter> largest;
+  vtkNew<vtkCleanPolyData> used;  // without the points of the other components
+  if (item.largest_only) {
+    largest->SetInputData(data);
+    largest->SetExtractionModeToLargestRegion();
+    used->SetInputConnection(largest->GetOutputPort());
+    used->PointMergingOff();
+    mapper->SetInputConnection(used->GetOutputPort());
+  } else {
+    mapper->SetInputData(data);
+  }
   mapper->ScalarVisibilityOff();
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
@@ -105,32 +119,58 @@ vtkSmartPointer<vtkActor> make_actor(const SceneMesh& item) {
   return actor;
 }
 
+std::vector<vtkActor*> actors_of(vtkRenderer* renderer) {
+  std::vector<vtkActor*> actors;
+  vtkActorCollection* collection = renderer->GetActors();
+  collection->InitTraversal();
+  while (vtkActor* actor = collection->GetNextActor()) actors.push_back(actor);
+  return actors;
+}
+
+// Places the camera so that every vertex is in view, with a margin, and the picture centred.
 void place_camera(vtkRenderer* renderer, View view, double aspect) {
   const NamedView& place = *std::find_if(std::begin(kViews), std::end(kViews),
                                          [view](const NamedView& v) { return v.view == view; });
-  double bounds[6];
-  renderer->ComputeVisiblePropBounds(bounds);
-  const Eigen::Vector3d low(bounds[0], bounds[2], bounds[4]), high(bounds[1], bounds[3], bounds[5]);
-  const Eigen::Vector3d centre = 0.5 * (low + high);
   const Eigen::Vector3d from = Eigen::Map<const Eigen::Vector3d>(place.from.data()).normalized();
   const Eigen::Vector3d up = Eigen::Map<const Eigen::Vector3d>(place.up.data());
   const Eigen::Vector3d right = up.cross(from).normalized(), above = from.cross(right);
-  constexpr double kAngle = 22.0;  // of the view, vertically
+  constexpr double kAngle = 20.0;  // of the view, vertically
   const double slope = std::tan(kAngle * 3.14159265358979 / 360.0);
-  // The nearest place from which all eight corners are inside the view, with a margin.
-  double distance = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3d p((corner & 1) != 0 ? high[0] : low[0],
-                            (corner & 2) != 0 ? high[1] : low[1],
-                            (corner & 4) != 0 ? high[2] : low[2]);
-    const Eigen::Vector3d d = p - centre;
-    const double across = std::max(std::abs(d.dot(above)), std::abs(d.dot(right)) / aspect);
-    distance = std::max(distance, d.dot(from) + 1.04 * across / slope);
+  const std::array<double, 2> slopes{slope * aspect, slope};
+  // A vertex at (a, d) across and towards the eye is in view when |a − c| ≤ slope (D − d) for the
+  // centre c and the distance D of the eye: a + slope d ≤ slope D + c and −a + slope d ≤ slope D −
+  // c.
+  std::array<double, 2> most{-1e300, -1e300}, least{-1e300, -1e300};
+  double nearest = -1e300;
+  for (vtkActor* actor : actors_of(renderer)) {
+    actor->GetMapper()->Update();
+    vtkPoints* points = vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput())->GetPoints();
+    const double* scale = actor->GetScale();
+    for (vtkIdType v = 0; v < points->GetNumberOfPoints(); ++v) {
+      Eigen::Vector3d p;
+      points->GetPoint(v, p.data());
+      const Eigen::Vector3d q = p.cwiseProduct(Eigen::Vector3d(scale[0], scale[1], scale[2]));
+      const double depth = q.dot(from);
+      nearest = std::max(nearest, depth);
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        const double across = q.dot(axis == 0 ? right : above);
+        most[axis] = std::max(most[axis], across + slopes[axis] * depth);
+        least[axis] = std::max(least[axis], -across + slopes[axis] * depth);
+      }
+    }
   }
-  if (distance <= 0.0) distance = 1.0;
+  double distance = nearest;
+  Eigen::Vector2d centre;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    centre[static_cast<Eigen::Index>(axis)] = (most[axis] - least[axis]) / 2;
+    distance = std::max(distance, (most[axis] + least[axis]) / (2 * slopes[axis]));
+  }
+  constexpr double kMargin = 1.06;
+  distance = nearest + kMargin * std::max(distance - nearest, 1e-9 * (1.0 + std::abs(nearest)));
+  const Eigen::Vector3d focus = centre[0] * right + centre[1] * above + nearest * from;
+  const Eigen::Vector3d eye = centre[0] * right + centre[1] * above + distance * from;
   vtkCamera* camera = renderer->GetActiveCamera();
-  const Eigen::Vector3d eye = centre + distance * from;
-  camera->SetFocalPoint(centre[0], centre[1], centre[2]);
+  camera->SetFocalPoint(focus[0], focus[1], focus[2]);
   camera->SetPosition(eye[0], eye[1], eye[2]);
   camera->SetViewUp(up[0], up[1], up[2]);
   camera->SetViewAngle(kAngle);
@@ -173,10 +213,12 @@ std::string draw(const std::vector<SceneMesh>& meshes, const PictureOptions& opt
   }
   renderer->AutomaticLightCreationOff();
   vtkNew<vtkLightKit> lights;
-  lights->SetKeyLightIntensity(0.85);
-  lights->SetKeyToFillRatio(2.6);
+  lights->SetKeyLightIntensity(0.86);
+  lights->SetKeyLightWarmth(0.54);
+  lights->SetFillLightWarmth(0.47);
+  lights->SetKeyToFillRatio(2.4);
   lights->SetKeyToHeadRatio(3.5);
-  lights->SetKeyLightAngle(48.0, -28.0);
+  lights->SetKeyLightAngle(46.0, -30.0);
   lights->AddLightsToRenderer(renderer);
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
@@ -193,8 +235,8 @@ std::string draw(const std::vector<SceneMesh>& meshes, const PictureOptions& opt
     vtkNew<vtkRenderStepsPass> steps;
     vtkNew<vtkSSAOPass> occlusion;
     occlusion->SetRadius(0.05 * diagonal);
-    occlusion->SetBias(0.0005 * diagonal);
-    occlusion->SetKernelSize(64);
+    occlusion->SetBias(0.0015 * diagonal);
+    occlusion->SetKernelSize(32);
     occlusion->BlurOn();
     occlusion->SetDelegatePass(steps);
     vtkOpenGLRenderer::SafeDownCast(renderer)->SetPass(occlusion);

@@ -29,8 +29,9 @@ inline constexpr std::string_view kColorNames =
 /// One mesh of a picture. A mesh whose space is RAS is turned into LPS.
 struct SceneMesh {
   MeshView mesh;
-  Color color{0.93, 0.88, 0.78};
-  double opacity = 1.0;  ///< 0 … 1.
+  Color color{0.96, 0.92, 0.84};
+  double opacity = 1.0;       ///< 0 … 1.
+  bool largest_only = false;  ///< Only the component of the most triangles.
 };
 
 struct PictureOptions {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include <Eigen/LU>
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -12,6 +11,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
+#include <Eigen/LU>
 
 #include "vtk_mesh.hpp"
 

@@ -24,7 +24,8 @@ void report_mesh(const std::string& command, const std::string& path, const Sett
   progress.clear();
   const std::string space = file.mesh.space.empty() ? "not stated" : file.mesh.space;
   if (!settings.quiet) {
-    std::cout << line("file", path) << line("format", std::string(to_string(file.format)) + ", " + file.encoding)
+    std::cout << line("file", path)
+              << line("format", std::string(to_string(file.format)) + ", " + file.encoding)
               << line("space", space) << to_lines(check);
   }
   Json report = report_head(command);
@@ -47,7 +48,9 @@ void add_check(CLI::App& app, Settings& settings) {
       "Examples:\n"
       "  shape3d check bone.ply\n"
       "  shape3d check bone.stl --quiet --json bone.json");
-  command->callback([path, &settings] { settings.run = [path, &settings] { report_mesh("check", *path, settings); }; });
+  command->callback([path, &settings] {
+    settings.run = [path, &settings] { report_mesh("check", *path, settings); };
+  });
 }
 
 }  // namespace shape3d::apps

@@ -30,12 +30,15 @@ struct ExtractArguments {
 void extract_surfaces(const ExtractArguments& arguments, const Settings& settings);
 
 /// The block of a view that --roi says.
-/// @throws UsageError  naming the axis, the indices and the samples there are; fewer than two samples.
-[[nodiscard]] zmc::VolumeView region_of(const zmc::VolumeView& view, const std::vector<std::int64_t>& roi);
+/// @throws UsageError  naming the axis, the indices and the samples there are; fewer than two
+/// samples.
+[[nodiscard]] zmc::VolumeView region_of(const zmc::VolumeView& view,
+                                        const std::vector<std::int64_t>& roi);
 
-/// "bone.ply" for one isovalue, "bone_226.ply", "bone_-300.ply" for several; a single name when the format
-/// holds them all (VTP).
-[[nodiscard]] std::vector<std::string> output_names(const std::string& output, const std::vector<double>& isovalues,
+/// "bone.ply" for one isovalue, "bone_226.ply", "bone_-300.ply" for several; a single name when the
+/// format holds them all (VTP).
+[[nodiscard]] std::vector<std::string> output_names(const std::string& output,
+                                                    const std::vector<double>& isovalues,
                                                     MeshFormat format);
 
 }  // namespace shape3d::apps

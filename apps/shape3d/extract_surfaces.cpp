@@ -22,8 +22,8 @@
 namespace shape3d::apps {
 namespace {
 
-// Bytes of a surface and of its check for each vertex: 24 of coordinates, two triangles of 12, and for the check
-// 20 and twice 24.
+// Bytes of a surface and of its check for each vertex: 24 of coordinates, two triangles of 12, and
+// for the check 20 and twice 24.
 constexpr std::uint64_t kBytesPerVertex = 24 + 2 * 12 + 20 + 2 * 24;
 
 // One isovalue, from extraction to report.
@@ -41,7 +41,10 @@ struct Extracted {
 class Extraction {
  public:
   Extraction(const ExtractArguments& arguments, const Settings& settings)
-      : arguments_(arguments), settings_(settings), progress_(settings), format_(*mesh_format(arguments.output)),
+      : arguments_(arguments),
+        settings_(settings),
+        progress_(settings),
+        format_(*mesh_format(arguments.output)),
         names_(output_names(arguments.output, arguments.isovalues, format_)) {}
 
   void run() {
@@ -99,8 +102,10 @@ class Extraction {
     MeshCheckOptions check_options;
     if (!arguments_.cap) check_options.volume = &view_;
     item.check = check_mesh(apps::view_of(item.surface), check_options);
-    if (arguments_.cap) item.check.odd_interior_edges = item.check.odd_edges;  // a capped surface has no border
-    if (format_ == MeshFormat::stl) item.coincident_as_float = coincident_as_float(apps::view_of(item.surface));
+    if (arguments_.cap)
+      item.check.odd_interior_edges = item.check.odd_edges;  // a capped surface has no border
+    if (format_ == MeshFormat::stl)
+      item.coincident_as_float = coincident_as_float(apps::view_of(item.surface));
     item.check_seconds = watch.lap();
     return item;
   }
@@ -108,22 +113,26 @@ class Extraction {
   // With 32-bit ids, and again with 64-bit ones when there are too many vertices for those.
   zmc::Status extract_within_memory(Extracted& item, zmc::Options& options) {
     const std::uint64_t memory = available_memory();
-    const auto limit = static_cast<std::int64_t>(std::min<std::uint64_t>(memory / kBytesPerVertex, std::uint64_t{1} << 60));
+    const auto limit = static_cast<std::int64_t>(
+        std::min<std::uint64_t>(memory / kBytesPerVertex, std::uint64_t{1} << 60));
     const std::int64_t narrow_limit = std::numeric_limits<std::int32_t>::max();
     try {
       if (arguments_.id_bits != "64") {
         item.surface.emplace<0>();
         options.max_vertices = std::min(limit, narrow_limit);
-        const zmc::Status status = zmc::extract(view_, item.isovalue, options, std::get<0>(item.surface));
+        const zmc::Status status =
+            zmc::extract(view_, item.isovalue, options, std::get<0>(item.surface));
         if (status != zmc::Status::too_many_vertices) return status;
         if (arguments_.id_bits == "32") {
-          throw FileError(arguments_.volume.path, "the surface has more vertices than 32-bit ids can number");
+          throw FileError(arguments_.volume.path,
+                          "the surface has more vertices than 32-bit ids can number");
         }
       }
       if (limit > narrow_limit || arguments_.id_bits == "64") {
         item.surface.emplace<1>();
         options.max_vertices = limit;
-        const zmc::Status status = zmc::extract(view_, item.isovalue, options, std::get<1>(item.surface));
+        const zmc::Status status =
+            zmc::extract(view_, item.isovalue, options, std::get<1>(item.surface));
         if (status != zmc::Status::too_many_vertices) return status;
       }
     } catch (const std::invalid_argument& error) {
@@ -132,12 +141,14 @@ class Extraction {
       // told below
     }
     const auto needed = static_cast<std::uint64_t>(limit) * kBytesPerVertex;
-    throw FileError(arguments_.volume.path, "the surface of isovalue " + shortest(item.isovalue) + " has more than " +
-                                                grouped(limit) + " vertices and needs more than " + bytes_to_text(needed) + "; " +
-                                                bytes_to_text(memory) + " are available");
+    throw FileError(arguments_.volume.path,
+                    "the surface of isovalue " + shortest(item.isovalue) + " has more than " +
+                        grouped(limit) + " vertices and needs more than " + bytes_to_text(needed) +
+                        "; " + bytes_to_text(memory) + " are available");
   }
 
-  void write(Extracted& item, const std::vector<std::unique_ptr<OutputFile>>& files, std::size_t i) {
+  void write(Extracted& item, const std::vector<std::unique_ptr<OutputFile>>& files,
+             std::size_t i) {
     Stopwatch watch;
     if (arguments_.space == "ras") turn_about_z(item.surface);
     if (format_ == MeshFormat::vtp && arguments_.isovalues.size() > 1) {
@@ -184,12 +195,14 @@ class Extraction {
     progress_.stage("drawing " + arguments_.picture);
     Stopwatch watch;
     // The innermost surface is opaque, what lies round it is seen through.
-    static constexpr std::string_view kPalette[] = {"bone", "skin", "blue", "green", "orange", "purple"};
+    static constexpr std::string_view kPalette[] = {"bone",  "skin",   "blue",
+                                                    "green", "orange", "purple"};
     std::vector<std::size_t> order(items_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const bool above = arguments_.volume.inside == zmc::Inside::above;
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return above ? items_[a].isovalue > items_[b].isovalue : items_[a].isovalue < items_[b].isovalue;
+      return above ? items_[a].isovalue > items_[b].isovalue
+                   : items_[a].isovalue < items_[b].isovalue;
     });
     std::vector<SceneMesh> scene;
     for (std::size_t rank = 0; rank < order.size(); ++rank) {
@@ -199,7 +212,9 @@ class Extraction {
       mesh.opacity = rank == 0 ? 1.0 : 0.35;
       scene.push_back(std::move(mesh));
     }
-    const bool anything = std::any_of(items_.begin(), items_.end(), [](const Extracted& item) { return item.check.triangles > 0; });
+    const bool anything = std::any_of(items_.begin(), items_.end(), [](const Extracted& item) {
+      return item.check.triangles > 0;
+    });
     if (!anything) {
       warn(settings_, arguments_.picture + ": there is nothing to draw, no picture was written");
       picture_.reset();
@@ -230,70 +245,87 @@ class Extraction {
     json["masked_cells"] = counts.masked_cells;
     json["face_cases"] = counts.faces_by_case;
     json["face_case_shares"] = shares(counts);
-    json["seconds"] = {{"classify", item.timings.classify},   {"zero_regions", item.timings.zero_regions},
-                       {"count", item.timings.count},         {"generate", item.timings.generate},
-                       {"extract", item.extract_seconds},     {"check", item.check_seconds},
-                       {"write", item.write_seconds}};
+    json["seconds"] = {
+        {"classify", item.timings.classify}, {"zero_regions", item.timings.zero_regions},
+        {"count", item.timings.count},       {"generate", item.timings.generate},
+        {"extract", item.extract_seconds},   {"check", item.check_seconds},
+        {"write", item.write_seconds}};
     return json;
   }
 
   // Per cent of the faces of cells with patches, cases 1 to 13.
   static std::array<double, 13> shares(const zmc::Counts& counts) {
-    const auto all = static_cast<double>(std::accumulate(counts.faces_by_case.begin(), counts.faces_by_case.end(), std::int64_t{0}));
+    const auto all = static_cast<double>(
+        std::accumulate(counts.faces_by_case.begin(), counts.faces_by_case.end(), std::int64_t{0}));
     std::array<double, 13> result{};
-    for (std::size_t c = 0; c < 13; ++c) result[c] = all > 0 ? 100.0 * static_cast<double>(counts.faces_by_case[c]) / all : 0.0;
+    for (std::size_t c = 0; c < 13; ++c)
+      result[c] = all > 0 ? 100.0 * static_cast<double>(counts.faces_by_case[c]) / all : 0.0;
     return result;
   }
 
   std::string text_of(const Extracted& item) const {
-    std::string text = line("isovalue", shortest(item.isovalue)) + line("output", item.output) + to_lines(item.check);
+    std::string text = line("isovalue", shortest(item.isovalue)) + line("output", item.output) +
+                       to_lines(item.check);
     text += line("zero faces", grouped(item.counts.zero_faces));
     text += line("zero vertices", grouped(item.counts.zero_vertices));
-    if (item.counts.closing_triangles > 0) text += line("closing triangles", grouped(item.counts.closing_triangles));
-    if (item.counts.all_zero_cells > 0) text += line("all-zero cells", grouped(item.counts.all_zero_cells));
-    if (item.counts.masked_cells > 0) text += line("masked cells", grouped(item.counts.masked_cells));
-    if (item.coincident_as_float > 0) text += line("coincident in STL", grouped(item.coincident_as_float));
+    if (item.counts.closing_triangles > 0)
+      text += line("closing triangles", grouped(item.counts.closing_triangles));
+    if (item.counts.all_zero_cells > 0)
+      text += line("all-zero cells", grouped(item.counts.all_zero_cells));
+    if (item.counts.masked_cells > 0)
+      text += line("masked cells", grouped(item.counts.masked_cells));
+    if (item.coincident_as_float > 0)
+      text += line("coincident in STL", grouped(item.coincident_as_float));
     if (item.counts.cells_with_patch > 0) {
       std::string cases;
       const std::array<double, 13> percent = shares(item.counts);
       for (std::size_t c = 0; c < 13; ++c) {
         if (item.counts.faces_by_case[c] == 0) continue;
         char share[48];
-        std::snprintf(share, sizeof share, "%s%zu: %.2f %%", cases.empty() ? "" : ", ", c + 1, percent[c]);
+        std::snprintf(share, sizeof share, "%s%zu: %.2f %%", cases.empty() ? "" : ", ", c + 1,
+                      percent[c]);
         cases += share;
       }
       text += line("face cases", cases);
     }
     char seconds[160];
-    std::snprintf(seconds, sizeof seconds, "read %.3f, extract %.3f, check %.3f, write %.3f", read_seconds_, item.extract_seconds,
-                  item.check_seconds, item.write_seconds);
+    std::snprintf(seconds, sizeof seconds, "read %.3f, extract %.3f, check %.3f, write %.3f",
+                  read_seconds_, item.extract_seconds, item.check_seconds, item.write_seconds);
     return text + line("seconds", seconds);
   }
 
-  // The keys of a single surface stand at the top; of several surfaces the sums, and each in `surfaces`.
+  // The keys of a single surface stand at the top; of several surfaces the sums, and each in
+  // `surfaces`.
   void finish_report() {
-    text_ = line("volume", arguments_.volume.path + " (" + volume_.format + ", " + to_text(view_.dims) + " " +
-                               std::string(zmc::to_string(view_.type)) + ")");
+    text_ =
+        line("volume", arguments_.volume.path + " (" + volume_.format + ", " + to_text(view_.dims) +
+                           " " + std::string(zmc::to_string(view_.type)) + ")");
     Json surfaces = Json::array();
     for (const Extracted& item : items_) {
       surfaces.push_back(report_of(item));
       text_ += (items_.size() > 1 ? "\n" : "") + text_of(item);
     }
     Json report = report_head("extract");
-    report["input"] = {{"file", arguments_.volume.path}, {"format", volume_.format}, {"dims", volume_.view.dims},
-                       {"type", zmc::to_string(volume_.view.type)}, {"warnings", volume_.warnings}};
-    report["options"] = {{"inside", to_string(arguments_.volume.inside)},
-                         {"ties", to_string(arguments_.volume.ties)},
-                         {"triangulation", arguments_.triangulation == zmc::Triangulation::compact ? "compact" : "centroid"},
-                         {"zero_faces", arguments_.zero_faces == zmc::ZeroFaces::boundary ? "boundary" : "mating"},
-                         {"non_finite", arguments_.volume.non_finite == zmc::NonFinite::error ? "error" : "mask"},
-                         {"cap", arguments_.cap},
-                         {"roi", arguments_.roi.empty() ? Json(nullptr) : Json(arguments_.roi)},
-                         {"space", arguments_.space},
-                         {"id_bits", id_bits_}};
+    report["input"] = {{"file", arguments_.volume.path},
+                       {"format", volume_.format},
+                       {"dims", volume_.view.dims},
+                       {"type", zmc::to_string(volume_.view.type)},
+                       {"warnings", volume_.warnings}};
+    report["options"] = {
+        {"inside", to_string(arguments_.volume.inside)},
+        {"ties", to_string(arguments_.volume.ties)},
+        {"triangulation",
+         arguments_.triangulation == zmc::Triangulation::compact ? "compact" : "centroid"},
+        {"zero_faces", arguments_.zero_faces == zmc::ZeroFaces::boundary ? "boundary" : "mating"},
+        {"non_finite", arguments_.volume.non_finite == zmc::NonFinite::error ? "error" : "mask"},
+        {"cap", arguments_.cap},
+        {"roi", arguments_.roi.empty() ? Json(nullptr) : Json(arguments_.roi)},
+        {"space", arguments_.space},
+        {"id_bits", id_bits_}};
     Json totals = surfaces[0];
     if (surfaces.size() > 1) {
-      for (const char* key : {"isovalue", "output", "genus", "closed", "oriented", "volume", "largest_components", "face_case_shares"}) {
+      for (const char* key : {"isovalue", "output", "genus", "closed", "oriented", "volume",
+                              "largest_components", "face_case_shares"}) {
         totals.erase(key);
       }
       for (std::size_t i = 1; i < surfaces.size(); ++i) add_numbers(totals, surfaces[i]);
@@ -310,7 +342,8 @@ class Extraction {
       const Json& more = from.at(it.key());
       if (it->is_structured()) {
         if (it->is_array()) {
-          for (std::size_t i = 0; i < it->size(); ++i) (*it)[i] = (*it)[i].get<std::int64_t>() + more[i].get<std::int64_t>();
+          for (std::size_t i = 0; i < it->size(); ++i)
+            (*it)[i] = (*it)[i].get<std::int64_t>() + more[i].get<std::int64_t>();
         } else {
           add_numbers(*it, more);
         }
@@ -339,6 +372,8 @@ class Extraction {
 
 }  // namespace
 
-void extract_surfaces(const ExtractArguments& arguments, const Settings& settings) { Extraction(arguments, settings).run(); }
+void extract_surfaces(const ExtractArguments& arguments, const Settings& settings) {
+  Extraction(arguments, settings).run();
+}
 
 }  // namespace shape3d::apps

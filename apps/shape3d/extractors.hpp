@@ -10,8 +10,8 @@
 
 namespace shape3d::apps {
 
-/// What extractors other than this library's are given and return: in lattice units times spacing, origin and
-/// direction left out.
+/// What extractors other than this library's are given and return: in lattice units times spacing,
+/// origin and direction left out.
 struct ExtractedMesh {
   Mesh mesh;
   double seconds = 0.0;  ///< Of the extraction alone.
@@ -34,12 +34,13 @@ class NegatableVolume {
 };
 
 enum class Extractor { zmc, vtk_flying_edges, vtk_marching_cubes };
-inline constexpr Extractor kExtractors[] = {Extractor::zmc, Extractor::vtk_flying_edges, Extractor::vtk_marching_cubes};
+inline constexpr Extractor kExtractors[] = {Extractor::zmc, Extractor::vtk_flying_edges,
+                                            Extractor::vtk_marching_cubes};
 [[nodiscard]] std::string to_string(Extractor extractor);
 
 /// @throws std::invalid_argument  as zmc::extract().
-[[nodiscard]] ExtractedMesh run_extractor(Extractor extractor, const zmc::VolumeView& view, double isovalue,
-                                          const zmc::Options& options);
+[[nodiscard]] ExtractedMesh run_extractor(Extractor extractor, const zmc::VolumeView& view,
+                                          double isovalue, const zmc::Options& options);
 
 /// Vertices at equal positions become one; returns how many there were too many.
 std::int64_t merge_coincident(Mesh& mesh);

@@ -23,7 +23,8 @@ void info(const InfoArguments& arguments, const Settings& settings) {
   if (!detect_volume_format(arguments.path)) {
     if (!mesh_format(arguments.path)) {
       throw FileError(arguments.path,
-                      "is neither a volume (DICOM, NIfTI, NRRD, MetaImage, VTI) nor a mesh (PLY, OBJ, OFF, STL, VTP)");
+                      "is neither a volume (DICOM, NIfTI, NRRD, MetaImage, VTI) nor a mesh (PLY, "
+                      "OBJ, OFF, STL, VTP)");
     }
     report_mesh("info", arguments.path, settings);
     return;
@@ -48,15 +49,23 @@ void info(const InfoArguments& arguments, const Settings& settings) {
 void add_info(CLI::App& app, Settings& settings) {
   auto arguments = std::make_shared<InfoArguments>();
   CLI::App* command = app.add_subcommand("info", "Say what a volume or a mesh file holds");
-  command->add_option("FILE", arguments->path, "A volume (a folder of DICOM slices, .nii, .nii.gz, .nrrd, .mha, .mhd, .vti) or a mesh")
+  command
+      ->add_option(
+          "FILE", arguments->path,
+          "A volume (a folder of DICOM slices, .nii, .nii.gz, .nrrd, .mha, .mhd, .vti) or a mesh")
       ->required();
-  command->add_option("--series", arguments->series, "The DICOM series: its UID, or its number in the list")->type_name("UID|N");
+  command
+      ->add_option("--series", arguments->series,
+                   "The DICOM series: its UID, or its number in the list")
+      ->type_name("UID|N");
   command->footer(
       "Examples:\n"
       "  shape3d info skull.mhd\n"
       "  shape3d info scan/ --series 2 --json scan.json\n"
       "  shape3d info bone.ply");
-  command->callback([arguments, &settings] { settings.run = [arguments, &settings] { info(*arguments, settings); }; });
+  command->callback([arguments, &settings] {
+    settings.run = [arguments, &settings] { info(*arguments, settings); };
+  });
 }
 
 }  // namespace shape3d::apps

@@ -22,7 +22,8 @@ int fail(const std::string& sentence, int status) {
 
 void add_shared_options(CLI::App& app, Settings& settings) {
   app.add_flag("-q,--quiet", settings.quiet, "No report, no warnings, no progress; errors only");
-  app.add_option("--threads", settings.threads, "Threads to use; 0 stands for all processors (the default)")
+  app.add_option("--threads", settings.threads,
+                 "Threads to use; 0 stands for all processors (the default)")
       ->check(CLI::Range(0, 4096))
       ->type_name("N");
   app.add_option("--json", settings.json, "Write the report as JSON")->type_name("FILE");
@@ -37,7 +38,9 @@ void warn(const Settings& settings, const std::string& sentence) {
 int run_program(int argc, char** argv) {
   install_interrupt_handler();
   Settings settings;
-  CLI::App app("Surfaces from volumes by Zero-crossing Marching Cubes: closed and sign-neutral for every volume.");
+  CLI::App app(
+      "Surfaces from volumes by Zero-crossing Marching Cubes: closed and sign-neutral for every "
+      "volume.");
   app.name("shape3d");
   app.set_version_flag("--version", "shape3d " SHAPE3D_VERSION);
   app.require_subcommand(1);
@@ -55,7 +58,8 @@ int run_program(int argc, char** argv) {
   add_check(app, settings);
   add_render(app, settings);
   add_compare(app, settings);
-  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) add_shared_options(*command, settings);
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+    add_shared_options(*command, settings);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -75,7 +79,8 @@ int run_program(int argc, char** argv) {
   } catch (const UsageError& error) {
     return fail(error.what(), kUsage);
   } catch (const std::bad_alloc&) {
-    return fail("not enough memory; " + bytes_to_text(available_memory()) + " are available", kFailure);
+    return fail("not enough memory; " + bytes_to_text(available_memory()) + " are available",
+                kFailure);
   } catch (const std::exception& error) {
     return fail(error.what(), kFailure);
   }

@@ -18,9 +18,10 @@ class UsageError : public std::runtime_error {
 
 /// What all sub-commands share.
 struct Settings {
-  bool quiet = false;         ///< No report on standard output, no warnings and progress on standard error.
-  int threads = 0;            ///< 0: all processors.
-  std::string json;           ///< File for the report; empty: none.
+  bool quiet =
+      false;         ///< No report on standard output, no warnings and progress on standard error.
+  int threads = 0;   ///< 0: all processors.
+  std::string json;  ///< File for the report; empty: none.
   std::function<void()> run;  ///< The chosen sub-command, set while the command line is parsed.
 };
 

@@ -16,14 +16,16 @@ std::string duration(double seconds) {
   if (seconds < 60) {
     std::snprintf(text.data(), text.size(), "%.1f s", seconds);
   } else {
-    std::snprintf(text.data(), text.size(), "%d min %d s", static_cast<int>(seconds) / 60, static_cast<int>(seconds) % 60);
+    std::snprintf(text.data(), text.size(), "%d min %d s", static_cast<int>(seconds) / 60,
+                  static_cast<int>(seconds) % 60);
   }
   return text.data();
 }
 
 }  // namespace
 
-Progress::Progress(const Settings& settings) : active_(!settings.quiet && isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(const Settings& settings)
+    : active_(!settings.quiet && isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() { clear(); }
 
@@ -36,7 +38,8 @@ void Progress::stage(std::string name) {
 void Progress::update(double share) {
   const double passed = stage_watch_.seconds();
   if (!active_ || passed < kPatience || (shown_ && shown_watch_.seconds() < kInterval)) return;
-  std::string line = name_ + ": " + std::to_string(static_cast<int>(100 * share)) + " %, " + duration(passed);
+  std::string line =
+      name_ + ": " + std::to_string(static_cast<int>(100 * share)) + " %, " + duration(passed);
   if (share > 0.02) line += ", about " + duration(passed * (1 - share) / share) + " left";
   show(line);
 }

@@ -7,9 +7,9 @@
 
 namespace shape3d::apps {
 
-/// One line on standard error that says what is being done, how far it is, how long it took and how long it
-/// may still take. Only where standard error is a terminal and the program is not quiet; a stage that is over
-/// within half a second shows nothing.
+/// One line on standard error that says what is being done, how far it is, how long it took and how
+/// long it may still take. Only where standard error is a terminal and the program is not quiet; a
+/// stage that is over within half a second shows nothing.
 class Progress {
  public:
   explicit Progress(const Settings& settings);

@@ -17,9 +17,12 @@ Json number_or_null(const std::optional<Number>& number) {
 }
 
 Json to_json(const MeshComponent& component) {
-  return {{"triangles", component.triangles}, {"vertices", component.vertices},
-          {"boundary_edges", component.boundary_edges}, {"euler_characteristic", component.euler()},
-          {"manifold", component.manifold}, {"orientable", component.orientable},
+  return {{"triangles", component.triangles},
+          {"vertices", component.vertices},
+          {"boundary_edges", component.boundary_edges},
+          {"euler_characteristic", component.euler()},
+          {"manifold", component.manifold},
+          {"orientable", component.orientable},
           {"genus", number_or_null(component.genus())}};
 }
 
@@ -29,13 +32,16 @@ std::string triple(const Eigen::Vector3d& v) {
   return rounded(v[0]) + " " + rounded(v[1]) + " " + rounded(v[2]);
 }
 
-// Eight heights of a bar in one character each, by the square root of the count, so that small bins show.
+// Eight heights of a bar in one character each, by the square root of the count, so that small bins
+// show.
 std::string bars(const std::vector<std::uint64_t>& histogram) {
   static constexpr const char* kBars[] = {" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
-  const std::uint64_t most = histogram.empty() ? 0 : *std::max_element(histogram.begin(), histogram.end());
+  const std::uint64_t most =
+      histogram.empty() ? 0 : *std::max_element(histogram.begin(), histogram.end());
   std::string text;
   for (const std::uint64_t count : histogram) {
-    const double height = most == 0 ? 0.0 : std::sqrt(static_cast<double>(count) / static_cast<double>(most));
+    const double height =
+        most == 0 ? 0.0 : std::sqrt(static_cast<double>(count) / static_cast<double>(most));
     text += kBars[count == 0 ? 0 : std::max(1, static_cast<int>(std::lround(8 * height)))];
   }
   return text;
@@ -70,7 +76,8 @@ Json to_json(const MeshCheck& check) {
   json["area"] = check.area;
   json["volume"] = number_or_null(check.volume);
   json["largest_components"] = Json::array();
-  for (const MeshComponent& component : check.largest) json["largest_components"].push_back(to_json(component));
+  for (const MeshComponent& component : check.largest)
+    json["largest_components"].push_back(to_json(component));
   return json;
 }
 
@@ -81,8 +88,9 @@ Json to_json(const VolumeDescription& volume) {
           {"type", zmc::to_string(volume.type)},
           {"spacing", vector(volume.spacing)},
           {"origin", vector(volume.origin)},
-          {"direction_columns", Json::array({vector(volume.direction.col(0)), vector(volume.direction.col(1)),
-                                             vector(volume.direction.col(2))})},
+          {"direction_columns",
+           Json::array({vector(volume.direction.col(0)), vector(volume.direction.col(1)),
+                        vector(volume.direction.col(2))})},
           {"space", "LPS"},
           {"finite", volume.finite},
           {"non_finite", volume.non_finite},
@@ -115,7 +123,8 @@ std::string rounded(double number) {
     std::snprintf(text.data(), text.size(), "%.1f", std::abs(tenths));
     const std::string fixed = text.data();
     const std::size_t point = fixed.find('.');
-    return (number < 0 ? "-" : "") + grouped(std::stoll(fixed.substr(0, point))) + fixed.substr(point);
+    return (number < 0 ? "-" : "") + grouped(std::stoll(fixed.substr(0, point))) +
+           fixed.substr(point);
   }
   std::snprintf(text.data(), text.size(), "%.7g", number);
   return text.data();
@@ -123,7 +132,9 @@ std::string rounded(double number) {
 
 std::string to_lines(const MeshCheck& check) {
   std::string text;
-  const auto count = [&text](const char* name, std::int64_t number) { text += line(name, grouped(number)); };
+  const auto count = [&text](const char* name, std::int64_t number) {
+    text += line(name, grouped(number));
+  };
   count("vertices", check.vertices);
   count("triangles", check.triangles);
   count("components", check.components);
@@ -143,7 +154,8 @@ std::string to_lines(const MeshCheck& check) {
   count("unreferenced vertices", check.unreferenced_vertices);
   count("coincident vertices", check.coincident_vertices);
   text += line("area", rounded(check.area));
-  text += line("volume", check.volume ? rounded(*check.volume) : "not defined (the mesh is not closed and oriented)");
+  text += line("volume", check.volume ? rounded(*check.volume)
+                                      : "not defined (the mesh is not closed and oriented)");
   return text;
 }
 
@@ -155,11 +167,15 @@ std::string to_lines(const VolumeDescription& volume) {
   for (int axis = 0; axis < 3; ++axis) {
     text += line(std::string("direction of ") + "xyz"[axis], triple(volume.direction.col(axis)));
   }
-  if (volume.non_finite > 0) text += line("not finite", grouped(static_cast<std::int64_t>(volume.non_finite)));
-  text += line("range", rounded(volume.minimum) + " … " + rounded(volume.maximum) + ", mean " + rounded(volume.mean));
+  if (volume.non_finite > 0)
+    text += line("not finite", grouped(static_cast<std::int64_t>(volume.non_finite)));
+  text += line("range", rounded(volume.minimum) + " … " + rounded(volume.maximum) + ", mean " +
+                            rounded(volume.mean));
   if (!volume.histogram.empty()) {
-    const double upper = volume.histogram_lower + volume.histogram_width * static_cast<double>(volume.histogram.size());
-    text += line("histogram", rounded(volume.histogram_lower) + " |" + bars(volume.histogram) + "| " + rounded(upper));
+    const double upper = volume.histogram_lower +
+                         volume.histogram_width * static_cast<double>(volume.histogram.size());
+    text += line("histogram", rounded(volume.histogram_lower) + " |" + bars(volume.histogram) +
+                                  "| " + rounded(upper));
   }
   return text;
 }

@@ -48,7 +48,8 @@ std::vector<MeshArray> triangle_arrays_of(const AnySurface& surface, double isov
       [isovalue](const auto& s) -> std::vector<MeshArray> {
         const auto count = static_cast<std::size_t>(s.triangle_count());
         std::vector<std::uint8_t> kinds(count);
-        for (std::size_t t = 0; t < count; ++t) kinds[t] = static_cast<std::uint8_t>(s.kind(static_cast<std::int64_t>(t)));
+        for (std::size_t t = 0; t < count; ++t)
+          kinds[t] = static_cast<std::uint8_t>(s.kind(static_cast<std::int64_t>(t)));
         return {{"isovalue", std::vector<double>(count, isovalue)}, {"kind", std::move(kinds)}};
       },
       surface);
@@ -56,7 +57,8 @@ std::vector<MeshArray> triangle_arrays_of(const AnySurface& surface, double isov
 
 SurfaceCollection::SurfaceCollection()
     : vertex_arrays_{{"isovalue", std::vector<double>{}}},
-      triangle_arrays_{{"isovalue", std::vector<double>{}}, {"kind", std::vector<std::uint8_t>{}}} {}
+      triangle_arrays_{{"isovalue", std::vector<double>{}}, {"kind", std::vector<std::uint8_t>{}}} {
+}
 
 void SurfaceCollection::add(const AnySurface& surface, double isovalue) {
   const MeshView view = view_of(surface);
@@ -71,7 +73,8 @@ void SurfaceCollection::add(const AnySurface& surface, double isovalue) {
       [&](auto& to, const auto* from) {
         using Index = typename std::decay_t<decltype(to)>::value_type;
         to.reserve(to.size() + static_cast<std::size_t>(3 * view.triangle_count));
-        for (std::int64_t i = 0; i < 3 * view.triangle_count; ++i) to.push_back(static_cast<Index>(from[i] + offset));
+        for (std::int64_t i = 0; i < 3 * view.triangle_count; ++i)
+          to.push_back(static_cast<Index>(from[i] + offset));
       },
       indices_, view.indices);
   append<double>(vertex_arrays_[0], vertex_arrays_of(surface, isovalue)[0]);

@@ -12,7 +12,8 @@
 namespace shape3d::apps {
 
 /// A surface with 32-bit ids, or with 64-bit ids when those do not suffice.
-using AnySurface = std::variant<zmc::Surface<double, std::int32_t>, zmc::Surface<double, std::int64_t>>;
+using AnySurface =
+    std::variant<zmc::Surface<double, std::int32_t>, zmc::Surface<double, std::int64_t>>;
 
 /// What a file format needs of a surface, borrowed.
 [[nodiscard]] MeshView view_of(const AnySurface& surface);
@@ -20,8 +21,8 @@ using AnySurface = std::variant<zmc::Surface<double, std::int32_t>, zmc::Surface
 /// Changes between LPS and RAS: x and y change sign, which is a rotation.
 void turn_about_z(AnySurface& surface);
 
-/// Surfaces one after another in one mesh, with the arrays `isovalue` of vertices and triangles and `kind` of
-/// triangles (0 patch, 1 zero face, 2 closing).
+/// Surfaces one after another in one mesh, with the arrays `isovalue` of vertices and triangles and
+/// `kind` of triangles (0 patch, 1 zero face, 2 closing).
 class SurfaceCollection {
  public:
   SurfaceCollection();

@@ -39,35 +39,54 @@ void include_samples(const zmc::VolumeView& view, std::optional<std::array<doubl
 
 std::string shortest(double number) { return to_text(number); }
 
-std::string to_string(zmc::Inside inside) { return inside == zmc::Inside::above ? "above" : "below"; }
+std::string to_string(zmc::Inside inside) {
+  return inside == zmc::Inside::above ? "above" : "below";
+}
 
-std::string to_string(zmc::TieRule ties) { return ties == zmc::TieRule::neutral ? "neutral" : "positive"; }
+std::string to_string(zmc::TieRule ties) {
+  return ties == zmc::TieRule::neutral ? "neutral" : "positive";
+}
 
 void add_volume_options(CLI::App& command, VolumeArguments& arguments) {
-  command.add_option("VOLUME", arguments.path, "A folder of DICOM slices, .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd or .vti")->required();
-  command.add_option("--series", arguments.series, "The DICOM series: its UID, or its number in the list")->type_name("UID|N");
-  static const std::map<std::string, zmc::Inside> kInside{{"above", zmc::Inside::above}, {"below", zmc::Inside::below}};
+  command
+      .add_option("VOLUME", arguments.path,
+                  "A folder of DICOM slices, .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd or .vti")
+      ->required();
+  command
+      .add_option("--series", arguments.series,
+                  "The DICOM series: its UID, or its number in the list")
+      ->type_name("UID|N");
+  static const std::map<std::string, zmc::Inside> kInside{{"above", zmc::Inside::above},
+                                                          {"below", zmc::Inside::below}};
   command
       .add_option("--inside", arguments.inside,
-                  "The side of the isovalue that is the object: above (default: CT, MR, labels) or below (distance functions)")
+                  "The side of the isovalue that is the object: above (default: CT, MR, labels) or "
+                  "below (distance functions)")
       ->transform(CLI::CheckedTransformer(kInside))
       ->type_name("above|below");
-  static const std::map<std::string, zmc::TieRule> kTies{{"neutral", zmc::TieRule::neutral}, {"positive", zmc::TieRule::positive}};
+  static const std::map<std::string, zmc::TieRule> kTies{{"neutral", zmc::TieRule::neutral},
+                                                         {"positive", zmc::TieRule::positive}};
   command
       .add_option("--ties", arguments.ties,
-                  "Equal products in ambiguous faces: by the lattice (neutral, default) or for the positive side")
+                  "Equal products in ambiguous faces: by the lattice (neutral, default) or for the "
+                  "positive side")
       ->transform(CLI::CheckedTransformer(kTies))
       ->type_name("neutral|positive");
-  static const std::map<std::string, zmc::NonFinite> kNonFinite{{"error", zmc::NonFinite::error}, {"mask", zmc::NonFinite::mask}};
+  static const std::map<std::string, zmc::NonFinite> kNonFinite{{"error", zmc::NonFinite::error},
+                                                                {"mask", zmc::NonFinite::mask}};
   command
       .add_option("--non-finite", arguments.non_finite,
-                  "NaN and infinite samples: an error (default), or cells that touch one are left out (mask)")
+                  "NaN and infinite samples: an error (default), or cells that touch one are left "
+                  "out (mask)")
       ->transform(CLI::CheckedTransformer(kNonFinite))
       ->type_name("error|mask");
 }
 
 void add_space_option(CLI::App& command, std::string& space) {
-  command.add_option("--space", space, "World axes of the output: left-posterior-superior (lps, default) or right-anterior-superior (ras)")
+  command
+      .add_option("--space", space,
+                  "World axes of the output: left-posterior-superior (lps, default) or "
+                  "right-anterior-superior (ras)")
       ->check(CLI::IsMember({"lps", "ras"}))
       ->type_name("lps|ras");
 }
@@ -81,7 +100,8 @@ zmc::Options to_options(const VolumeArguments& arguments, const Settings& settin
   return options;
 }
 
-Volume read_volume_of(const VolumeArguments& arguments, const Settings& settings, Progress& progress) {
+Volume read_volume_of(const VolumeArguments& arguments, const Settings& settings,
+                      Progress& progress) {
   progress.stage("reading " + arguments.path);
   VolumeReadOptions options;
   options.series = arguments.series;
@@ -93,22 +113,38 @@ Volume read_volume_of(const VolumeArguments& arguments, const Settings& settings
 std::optional<std::array<double, 2>> range_of(const zmc::VolumeView& view) {
   std::optional<std::array<double, 2>> range;
   switch (view.type) {
-    case zmc::SampleType::int8: include_samples<std::int8_t>(view, range); break;
-    case zmc::SampleType::uint8: include_samples<std::uint8_t>(view, range); break;
-    case zmc::SampleType::int16: include_samples<std::int16_t>(view, range); break;
-    case zmc::SampleType::uint16: include_samples<std::uint16_t>(view, range); break;
-    case zmc::SampleType::int32: include_samples<std::int32_t>(view, range); break;
-    case zmc::SampleType::float32: include_samples<float>(view, range); break;
-    case zmc::SampleType::float64: include_samples<double>(view, range); break;
+    case zmc::SampleType::int8:
+      include_samples<std::int8_t>(view, range);
+      break;
+    case zmc::SampleType::uint8:
+      include_samples<std::uint8_t>(view, range);
+      break;
+    case zmc::SampleType::int16:
+      include_samples<std::int16_t>(view, range);
+      break;
+    case zmc::SampleType::uint16:
+      include_samples<std::uint16_t>(view, range);
+      break;
+    case zmc::SampleType::int32:
+      include_samples<std::int32_t>(view, range);
+      break;
+    case zmc::SampleType::float32:
+      include_samples<float>(view, range);
+      break;
+    case zmc::SampleType::float64:
+      include_samples<double>(view, range);
+      break;
   }
   return range;
 }
 
-std::string emptiness(const std::string& what, double isovalue, const zmc::VolumeView& view, const std::string& path) {
+std::string emptiness(const std::string& what, double isovalue, const zmc::VolumeView& view,
+                      const std::string& path) {
   const std::optional<std::array<double, 2>> range = range_of(view);
   if (!range) return path + ": no sample is finite: " + what + " is empty";
   const bool outside = isovalue < (*range)[0] || isovalue > (*range)[1];
-  return path + ": the isovalue " + shortest(isovalue) + (outside ? " is outside" : " divides no samples within") + " the range " +
+  return path + ": the isovalue " + shortest(isovalue) +
+         (outside ? " is outside" : " divides no samples within") + " the range " +
          shortest((*range)[0]) + " … " + shortest((*range)[1]) + ": " + what + " is empty";
 }
 

@@ -29,14 +29,15 @@ void add_space_option(CLI::App& command, std::string& space);
 [[nodiscard]] zmc::Options to_options(const VolumeArguments& arguments, const Settings& settings);
 
 /// Reads the volume; its warnings go to standard error.
-[[nodiscard]] Volume read_volume_of(const VolumeArguments& arguments, const Settings& settings, Progress& progress);
+[[nodiscard]] Volume read_volume_of(const VolumeArguments& arguments, const Settings& settings,
+                                    Progress& progress);
 
 /// Least and greatest finite sample; empty when there is none.
 [[nodiscard]] std::optional<std::array<double, 2>> range_of(const zmc::VolumeView& view);
 
 /// "the isovalue 5000 is outside the range -1024 … 3071 of skull.mhd: the surface is empty".
-[[nodiscard]] std::string emptiness(const std::string& what, double isovalue, const zmc::VolumeView& view,
-                                    const std::string& path);
+[[nodiscard]] std::string emptiness(const std::string& what, double isovalue,
+                                    const zmc::VolumeView& view, const std::string& path);
 
 /// Shortest decimal that reads back as the same number.
 [[nodiscard]] std::string shortest(double number);
