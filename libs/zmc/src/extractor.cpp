@@ -51,7 +51,7 @@ Status build_surface(const VolumeView& view, double isovalue, const Options& opt
   surface.timings.zero_regions = seconds_since(clock);
 
   const double middle = from + 0.4 * (to - from);
-  if (!detail::make_plan(job.lattice, cells, job.regions, options,
+  if (!detail::make_plan(job.lattice, cells, job.regions, options, {0, job.lattice.nz},
                          detail::layer_loop(options, from, middle), job.plan)) {
     return finish_empty(surface, Status::cancelled);
   }
@@ -59,7 +59,7 @@ Status build_surface(const VolumeView& view, double isovalue, const Options& opt
   surface.timings.count = seconds_since(clock);
 
   const bool centred = options.triangulation == Triangulation::centroid;
-  const std::int64_t vertices = job.plan.row_vertices + (centred ? job.plan.counts.zero_faces : 0);
+  const std::int64_t vertices = job.plan.vertices;
   constexpr std::int64_t kMost = std::numeric_limits<Index>::max();
   if (vertices > (options.max_vertices > 0 ? std::min(options.max_vertices, kMost) : kMost)) {
     return finish_empty(surface, Status::too_many_vertices);
@@ -76,7 +76,8 @@ Status build_surface(const VolumeView& view, double isovalue, const Options& opt
     surface.edges.resize(static_cast<std::size_t>(vertices));
     surface.edge_parameters.resize(static_cast<std::size_t>(vertices));
   }
-  if (!detail::generate(view, isovalue, options, cells, job.plan,
+  const detail::Geometry geometry(view, options.border == Border::capped);
+  if (!detail::generate(view, isovalue, options, geometry, cells, job.plan,
                         detail::layer_loop(options, middle, to), surface)) {
     return finish_empty(surface, Status::cancelled);
   }

@@ -148,8 +148,8 @@ std::size_t collect_crossings(const SignLattice& lattice, std::int64_t j, std::i
 
 template <class Real>
 VertexWriter<Real>::VertexWriter(const VolumeView& view, double isovalue, const Options& options,
-                                 const SignLattice& lattice, const Plan& plan,
-                                 const VertexArrays<Real>& arrays)
+                                 const Geometry& geometry, const SignLattice& lattice,
+                                 const Plan& plan, const VertexArrays<Real>& arrays)
     : view_(view),
       strides_(view.effective_strides()),
       isovalue_(isovalue),
@@ -157,7 +157,7 @@ VertexWriter<Real>::VertexWriter(const VolumeView& view, double isovalue, const 
       lattice_(lattice),
       plan_(plan),
       arrays_(arrays),
-      geometry_(view, options.border == Border::capped),
+      geometry_(geometry),
       attributes_(view, options),
       index_(static_cast<std::size_t>(lattice.nx)),
       parameter_(static_cast<std::size_t>(lattice.nx)) {}
@@ -166,7 +166,7 @@ template <class Real>
 void VertexWriter<Real>::write_row(std::int64_t j, std::int64_t k) {
   const std::int64_t row = lattice_.row(j, k);
   const RowPlan& r = plan_.rows[static_cast<std::size_t>(row)];
-  std::int64_t first = plan_.first_vertex(row);
+  std::int64_t first = plan_.first_vertex(row) - plan_.part_vertex;
   if (r.x != 0) write_crossings(j, k, 0, first);
   first += r.x;
   if (r.y != 0) write_crossings(j, k, 1, first);

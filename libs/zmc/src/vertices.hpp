@@ -36,7 +36,8 @@ template <class Real>
 class VertexWriter {
  public:
   VertexWriter(const VolumeView& view, double isovalue, const Options& options,
-               const SignLattice& lattice, const Plan& plan, const VertexArrays<Real>& arrays);
+               const Geometry& geometry, const SignLattice& lattice, const Plan& plan,
+               const VertexArrays<Real>& arrays);
 
   /// Crossings along x, y, z and used zero samples of row (j, k).
   void write_row(std::int64_t j, std::int64_t k);
@@ -58,7 +59,7 @@ class VertexWriter {
   const SignLattice& lattice_;
   const Plan& plan_;
   VertexArrays<Real> arrays_;
-  Geometry geometry_;
+  const Geometry& geometry_;
   AttributeSampler attributes_;
   std::vector<std::uint32_t> index_;  ///< Along x, of the vertices in hand.
   std::vector<double> parameter_;     ///< Their places on their edges, 0 … 1.
