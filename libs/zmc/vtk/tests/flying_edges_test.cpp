@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 
 #include <vtkDataArray.h>
 #include <vtkFloatArray.h>
@@ -16,27 +15,41 @@
 namespace {
 using namespace shape3d::zmc_vtk::test;
 
-/// Vertices of a mesh by place, to 2^-12.
-std::map<std::tuple<long, long, long>, vtkIdType> by_place(vtkPolyData* mesh) {
-  std::map<std::tuple<long, long, long>, vtkIdType> ids;
-  for (vtkIdType v = 0; v < mesh->GetNumberOfPoints(); ++v) {
-    const Eigen::Vector3d p = 4096.0 * point(mesh, v);
-    ids[{std::lround(p[0]), std::lround(p[1]), std::lround(p[2])}] = v;
+/// Finds vertices of a mesh by their places.
+class Places {
+ public:
+  explicit Places(vtkPolyData* mesh) : mesh_(mesh) {
+    for (vtkIdType v = 0; v < mesh->GetNumberOfPoints(); ++v)
+      ids_.emplace(box(point(mesh, v), 0), v);
   }
-  return ids;
-}
 
-/// The vertex of `ids` within 2^-12 of a place, or −1.
-vtkIdType vertex_near(const std::map<std::tuple<long, long, long>, vtkIdType>& ids,
-                      const Eigen::Vector3d& place) {
-  const Eigen::Vector3d p = 4096.0 * place;
-  for (int n = 0; n < 27; ++n) {
-    const auto found = ids.find({std::lround(p[0]) + n % 3 - 1, std::lround(p[1]) + n / 3 % 3 - 1,
-                                 std::lround(p[2]) + n / 9 - 1});
-    if (found != ids.end()) return found->second;
+  /// The nearest vertex, or −1 if none is within 2^-12.
+  [[nodiscard]] vtkIdType nearest(const Eigen::Vector3d& place) const {
+    vtkIdType best = -1;
+    double distance = kSide;
+    for (int n = 0; n < 27; ++n) {
+      const auto [first, last] = ids_.equal_range(box(place, n));
+      for (auto at = first; at != last; ++at) {
+        const double d = (point(mesh_, at->second) - place).norm();
+        if (d < distance) best = at->second, distance = d;
+      }
+    }
+    return best;
   }
-  return -1;
-}
+
+ private:
+  using Box = std::array<long, 3>;
+  static constexpr double kSide = 1.0 / 4096;
+  /// The box of a place (n = 0) or one of the 26 around it.
+  static Box box(const Eigen::Vector3d& place, int n) {
+    Box b{};
+    for (int d = 0; d < 3; ++d, n /= 3) b[d] = std::lround(place[d] / kSide) + (n % 3 + 1) % 3 - 1;
+    return b;
+  }
+
+  vtkPolyData* mesh_;
+  std::multimap<Box, vtkIdType> ids_;
+};
 
 /// Smooth, without ambiguous faces or zero samples at the value 0.37.
 double smooth(int i, int j, int k) {
@@ -120,14 +133,14 @@ TEST_CASE("a smooth field gives the vertices and attributes of vtkFlyingEdges3D"
   CHECK(ours->GetNumberOfPoints() == theirs->GetNumberOfPoints());
   CHECK(ours->GetNumberOfCells() == theirs->GetNumberOfCells());
 
-  const auto ids = by_place(theirs);
+  const Places places(theirs);
   double worst_place = 0.0, worst_normal = 0.0, worst_gradient = 0.0, worst_other = 0.0;
   int apart = 0;
   const auto tuple = [](vtkPolyData* mesh, const char* name, vtkIdType id) {
     return Eigen::Vector3d(mesh->GetPointData()->GetArray(name)->GetTuple3(id));
   };
   for (vtkIdType v = 0; v < ours->GetNumberOfPoints(); ++v) {
-    const vtkIdType w = vertex_near(ids, point(ours, v));
+    const vtkIdType w = places.nearest(point(ours, v));
     if (w < 0) {
       ++apart;
       continue;
@@ -174,11 +187,11 @@ TEST_CASE("under a rotated direction matrix the surface is that of vtkFlyingEdge
   vtkPolyData *ours = pair.ours->GetOutput(), *theirs = pair.theirs->GetOutput();
   REQUIRE(ours->GetNumberOfPoints() > 1000);
   REQUIRE(ours->GetNumberOfPoints() == theirs->GetNumberOfPoints());
-  const auto ids = by_place(theirs);
+  const Places places(theirs);
   int apart = 0;
   double worst = 0.0;
   for (vtkIdType v = 0; v < ours->GetNumberOfPoints(); ++v) {
-    const vtkIdType w = vertex_near(ids, point(ours, v));
+    const vtkIdType w = places.nearest(point(ours, v));
     if (w < 0) {
       ++apart;
       continue;

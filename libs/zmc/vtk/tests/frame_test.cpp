@@ -138,10 +138,12 @@ TEST_CASE("vertices lie where the image puts its points, for any extent and dire
 }
 
 TEST_CASE("pieces of an image tile its surface", "[zmc_vtk]") {
-  const Field field = distance_from(8.3, 7.1, 9.2);
-  const auto image = make_image({0, 17, 0, 15, 0, 19}, VTK_DOUBLE, field);
+  const Field distance = distance_from(8.3, 7.1, 9.2);
+  vtkNew<PartSource> source;
+  source->Produce({0, 17, 0, 15, 0, 19},
+                  [&](int i, int j, int k) { return std::floor(distance(i, j, k)); });
   vtkNew<vtkZeroCrossingMarchingCubes> filter;
-  filter->SetInputData(image);
+  filter->SetInputConnection(source->GetOutputPort());
   filter->SetValue(0, 512.3);
   filter->Update();
   const vtkIdType whole = filter->GetOutput()->GetNumberOfCells();

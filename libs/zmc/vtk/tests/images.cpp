@@ -5,10 +5,15 @@
 
 #include <vtkCallbackCommand.h>
 #include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
 #include <vtkExecutive.h>
 #include <vtkIdList.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
 #include <vtkPointData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 
 namespace shape3d::zmc_vtk::test {
 
@@ -25,6 +30,33 @@ vtkSmartPointer<vtkImageData> make_image(const Extent& extent, int type, const F
     }
   }
   return image;
+}
+
+vtkStandardNewMacro(PartSource);
+
+void PartSource::Produce(const Extent& whole, const Field& field) {
+  whole_ = whole;
+  field_ = field;
+  this->Modified();
+}
+
+int PartSource::RequestInformation(vtkInformation* /*request*/, vtkInformationVector** /*in*/,
+                                   vtkInformationVector* out) {
+  vtkInformation* info = out->GetInformationObject(0);
+  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole_.data(), 6);
+  info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+  return 1;
+}
+
+int PartSource::RequestData(vtkInformation* /*request*/, vtkInformationVector** /*in*/,
+                            vtkInformationVector* out) {
+  Extent extent;
+  out->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
+                                    extent.data());
+  const auto image = make_image(extent, VTK_SHORT, field_);
+  add_coordinates<vtkDoubleArray>(image, "coordinates");
+  vtkImageData::GetData(out)->ShallowCopy(image);
+  return 1;
 }
 
 std::array<vtkIdType, 3> triangle(vtkPolyData* mesh, vtkIdType cell) {

@@ -9,10 +9,14 @@
 #include <vector>
 
 #include <vtkCommand.h>
+#include <vtkImageAlgorithm.h>
 #include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "shape3d/zmc/extract.hpp"
 #include "shape3d/zmc_vtk/vtkZeroCrossingMarchingCubes.h"
@@ -26,6 +30,37 @@ using Field = std::function<double(int, int, int)>;
 /// An image with scalars "samples" of a VTK type.
 [[nodiscard]] vtkSmartPointer<vtkImageData> make_image(const Extent& extent, int type,
                                                        const Field& field);
+
+/// Produces the part of an image that it is asked for: scalars "samples" of short from a field of
+/// integers, and the points' coordinates as the array "coordinates" of double.
+class PartSource : public vtkImageAlgorithm {
+ public:
+  static PartSource* New();
+  void Produce(const Extent& whole, const Field& field);
+
+ protected:
+  PartSource() { this->SetNumberOfInputPorts(0); }
+  int RequestInformation(vtkInformation* request, vtkInformationVector** in,
+                         vtkInformationVector* out) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** in,
+                  vtkInformationVector* out) override;
+
+ private:
+  Extent whole_{};
+  Field field_;
+};
+
+/// Adds the coordinates of points as an array of three components.
+template <class Array>
+void add_coordinates(vtkImageData* image, const char* name) {
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(image->GetNumberOfPoints());
+  for (vtkIdType id = 0; id < image->GetNumberOfPoints(); ++id)
+    array->SetTuple(id, image->GetPoint(id));
+  image->GetPointData()->AddArray(array);
+}
 
 /// 100 times the distance from (i, j, k) = centre.
 [[nodiscard]] inline Field distance_from(double x, double y, double z) {
