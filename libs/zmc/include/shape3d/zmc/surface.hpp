@@ -88,9 +88,10 @@ struct Surface {
 
   detail::Buffer<Real> positions;  ///< 3·n world coordinates, x y z of vertex 0 first.
   detail::Buffer<Index> indices;   ///< 3·m vertex ids, counter-clockwise seen from outside.
-  /// With Options::gradients, 3·n: the gradient of the samples in world units, by central differences
-  /// at lattice points (one-sided at the border and beside masked samples, 0 where neither side is
-  /// there), interpolated along lattice edges, averaged at centroids. On a cap it is 0.
+  /// With Options::gradients, 3·n: the gradient of the samples in world units, by central
+  /// differences at lattice points (one-sided at the border and beside masked samples, 0 where
+  /// neither side is there), interpolated along lattice edges, averaged at centroids. On a cap it
+  /// is 0.
   detail::Buffer<Real> gradients;
   /// With Options::normals, 3·n: the unit vector along the gradient that points from inside to
   /// outside; on a cap the direction out of the volume. Zero where the gradient vanishes.
