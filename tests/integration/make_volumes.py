@@ -835,6 +835,7 @@ def dicom(folder):
     all_changed("rgb", "holds 3 components a voxel", SamplesPerPixel=3, PhotometricInterpretation="RGB")
     all_changed("palette", "\"PALETTE COLOR\"", PhotometricInterpretation="PALETTE COLOR")
     all_changed("bits", "has 12 bits allocated", BitsAllocated=12)
+    all_changed("high_bit", "stores 12 bits up to bit 15 of 16", BitsStored=12, HighBit=15)
     all_changed("slope0", "slope 0 and intercept 0", RescaleSlope="0", RescaleIntercept="0")
     all_changed("few_pixels", "holds 30 bytes of pixel data", "expected 40", PixelData=b"\0" * 30)
     all_changed("zero_rows", "has 0 rows", Rows=0)
@@ -874,6 +875,14 @@ def dicom(folder):
     damaged_rle("rle_inside", lambda f: patch(f, 4, "<I", 8), "an RLE segment from byte 8")
     damaged_rle("rle_short", lambda f: f[:-10], "an RLE segment of ", "expected 20")
     damaged_rle("rle_tiny", lambda f: f[:20], "an RLE frame of 20 bytes")
+    # A transfer syntax nobody knows, and films.
+    for syntax in ["1.2.3", "1.2.840.10008.1.2.4.100"]:
+        series(f"syntax{syntax}", syntax=RLELossless)
+        for n in range(6):
+            data = pydicom.dcmread(folder / f"syntax{syntax}/{n:02d}.dcm")
+            data.file_meta.TransferSyntaxUID = syntax
+            data.save_as(folder / f"syntax{syntax}/{n:02d}.dcm", write_like_original=False)
+        folder.expect_error(f"syntax{syntax}", f"has transfer syntax \"{syntax}\", which is not read")
     # RLE that calls itself JPEG 2000.
     series("not_jpeg", syntax=RLELossless)
     for n in range(6):
