@@ -118,7 +118,7 @@ std::size_t InflateSource::read(void* out, std::size_t count) {
       state.truncated = true;
     } else if (code != Z_OK && code != Z_BUF_ERROR) {
       const char* reason = state.stream.msg != nullptr ? state.stream.msg : "not zlib data";
-      throw FileError(state.path, std::string("compressed data is damaged: ") + reason);
+      throw FileError(state.path, std::string("compressed data are damaged: ") + reason);
     }
   }
   return done;

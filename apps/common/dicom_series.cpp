@@ -51,25 +51,6 @@ bool named_dicom(const std::filesystem::path& path) {
   return extension == ".dcm" || extension == ".ima" || extension == ".dicom";
 }
 
-// Position behind the last fragment of compressed pixel data; nothing when the file ends first.
-// Items are (fffe,e000) and a length, the end is (fffe,e0dd).
-std::optional<std::uint64_t> end_of_fragments(const std::filesystem::path& path,
-                                              std::uint64_t position, std::uint64_t size) {
-  while (position + 8 <= size) {
-    FileSource source(path, position);
-    unsigned char item[8] = {};
-    if (source.read(item, sizeof item) < sizeof item) return std::nullopt;
-    const unsigned group = item[0] | item[1] << 8;
-    const unsigned element = item[2] | item[3] << 8;
-    const std::uint64_t length = vtkDICOMUtilities::UnpackUnsignedInt(item + 4);
-    position += 8;
-    if (group != 0xfffe) return std::nullopt;
-    if (element == 0xe0dd) return position;
-    position += length;
-  }
-  return std::nullopt;
-}
-
 // One file, parsed as far as its pixel data.
 class Parser {
  public:
@@ -81,24 +62,28 @@ class Parser {
     parser->SetFileName(path.c_str());
     parser->Update();
     error_ = messages.first_error();
-    if (error_.empty() && parser->GetErrorCode() != 0) error_ = "its header is damaged";
+    if (error_.empty() && parser->GetErrorCode() != 0) error_ = "its data elements are damaged";
     has_pixels_ = parser->GetPixelDataFound();
     pixel_length_ = parser->GetPixelDataVL();
     pixel_offset_ = static_cast<std::uint64_t>(parser->GetFileOffset());
   }
 
-  // An error of the parser; empty when there was none.
-  [[nodiscard]] const std::string& error() const { return error_; }
-
-  // An object that must hold pixels, or does.
-  [[nodiscard]] bool is_image() const {
-    if (has_pixels_ || has(kRows)) return true;
-    for (const vtkDICOMTag& tag : {kSopClass, kMediaClass}) {
-      const std::string name = vtkDICOMUtilities::GetUIDName(text(tag).c_str());
-      if (name.find("Image Storage") != std::string::npos) return true;
+  // Why the data elements up to the pixels could not be parsed; empty when they could.
+  [[nodiscard]] std::string header_error() const {
+    if (text(kTransferSyntax) == kDeflated) {
+      return "is a deflated data set (transfer syntax " + std::string(kDeflated) +
+             "); expected one that is not deflated";
     }
-    return false;
+    return has_pixels_ || error_.empty() ? std::string() : "cannot be read: " + error_;
   }
+
+  // Whether the object must hold pixels, or does.
+  [[nodiscard]] bool is_image() const {
+    return has_pixels_ || has(kRows) || has_image_class(kSopClass) || has_image_class(kMediaClass);
+  }
+
+  // Whether the first data elements say that the object is another than an image.
+  [[nodiscard]] bool is_other() const { return has(kMediaClass) && !has_image_class(kMediaClass); }
 
   [[nodiscard]] std::string text(const vtkDICOMTag& tag) const {
     const vtkDICOMValue& value = data_->Get(tag);
@@ -114,14 +99,22 @@ class Parser {
     DicomFile file;
     file.path = path_;
     file.instance_uid = text(kSopInstance);
+    file.transfer_syntax = text(kTransferSyntax);
     file.rows = integer(kRows, 0);
     file.columns = integer(kColumns, 0);
     file.problem = read_image(file);
+    if (file.problem.empty() && !error_.empty()) file.problem = "cannot be read: " + error_;
     return file;
   }
 
  private:
   [[nodiscard]] bool has(const vtkDICOMTag& tag) const { return data_->Get(tag).IsValid(); }
+
+  [[nodiscard]] bool has_image_class(const vtkDICOMTag& tag) const {
+    const char* name = vtkDICOMUtilities::GetUIDName(text(tag).c_str());
+    return name != nullptr &&
+           std::string_view(name).find("Image Storage") != std::string_view::npos;
+  }
 
   // `count` numbers of a frame; decimal strings are parsed exactly. Nothing when missing or
   // malformed.
@@ -145,10 +138,6 @@ class Parser {
     if (file.rows < 1 || file.columns < 1) {
       return "has " + std::to_string(file.rows) + " rows and " + std::to_string(file.columns) +
              " columns; expected positive numbers";
-    }
-    if (text(kTransferSyntax) == kDeflated) {
-      return "is a deflated data set (transfer syntax " + std::string(kDeflated) +
-             "), which is not read; expected one that is not deflated";
     }
     const std::int64_t components = integer(kSamplesPerPixel, 1);
     const std::string photometric = text(kPhotometric);
@@ -180,12 +169,17 @@ class Parser {
     return length.empty() ? read_frames(file, static_cast<int>(frames)) : length;
   }
 
-  [[nodiscard]] std::string check_length(const DicomFile& file, std::int64_t frames) const {
+  [[nodiscard]] std::string check_length(DicomFile& file, std::int64_t frames) const {
     const std::uint64_t size = readable_size(path_);
     if (pixel_length_ == kEncapsulated) {
-      if (end_of_fragments(path_, pixel_offset_, size)) return {};
-      return "is cut off: its compressed pixel data have no end in " + std::to_string(size) +
-             " bytes";
+      const auto fragments = find_fragments(path_, pixel_offset_);
+      if (!fragments) {
+        return "is cut off: its compressed pixel data have no end in " + std::to_string(size) +
+               " bytes";
+      }
+      file.compressed = true;
+      file.fragments = *fragments;
+      return {};
     }
     // Rows and columns have 16 bits, so that the product fits.
     const std::uint64_t expected =
@@ -271,13 +265,14 @@ Claim dicom_claim(const std::filesystem::path& path) {
 void add_file(const std::filesystem::path& path, std::map<std::string, DicomSeries>& by_uid) {
   const Claim claim = dicom_claim(path);
   if (claim == Claim::none) return;
-  const bool looks_right = claim == Claim::certain && !vtkDICOMUtilities::IsDICOMFile(path.c_str());
-  if (looks_right)
+  if (claim == Claim::certain && !vtkDICOMUtilities::IsDICOMFile(path.c_str())) {
     throw FileError(path, "is not DICOM, though its name says so; damaged or cut off?");
+  }
   const Parser parser(path);
-  if (!parser.error().empty()) {
+  if (parser.is_other()) return;
+  if (const std::string error = parser.header_error(); !error.empty()) {
     if (claim == Claim::perhaps) return;
-    throw FileError(path, "cannot be read: " + parser.error());
+    throw FileError(path, error);
   }
   if (!parser.is_image()) return;
   const std::string uid = parser.text(kSeriesInstance);

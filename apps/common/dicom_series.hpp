@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dicom_fragments.hpp"
 #include "samples.hpp"
 #include "slice_geometry.hpp"
 #include "volume_header.hpp"
@@ -15,12 +16,15 @@ namespace shape3d::apps {
 struct DicomFile {
   std::filesystem::path path;
   std::string instance_uid;
+  std::string transfer_syntax;
   std::int64_t rows = 0;
   std::int64_t columns = 0;
   StoredType type = StoredType::int16;
   std::vector<SlicePlace> frames;  ///< At least one.
-  std::vector<Scale> scales;       ///< For each frame.
-  std::string problem;             ///< Why the file cannot be part of a volume; empty: it can.
+  bool compressed = false;
+  std::vector<Fragment> fragments;  ///< Of compressed pixel data.
+  std::vector<Scale> scales;        ///< For each frame.
+  std::string problem;              ///< Why the file cannot be part of a volume; empty: it can.
 };
 
 /// Image files with the same SeriesInstanceUID.

@@ -120,7 +120,9 @@ void check_gaps(const std::vector<SlicePlace>& slices, const Ordered& ordered,
   for (std::size_t k = 0; k < ordered.gaps.size(); ++k) {
     const double ratio = ordered.gaps[k] / typical;
     const double whole = std::max(std::round(ratio), 1.0);
-    if (std::abs(ratio - whole) > worst_error) {
+    // The first of several alike, whatever the rounding.
+    constexpr double kMore = 1.0 + 1e-6;
+    if (std::abs(ratio - whole) > kMore * worst_error) {
       worst = k;
       worst_error = std::abs(ratio - whole);
     }

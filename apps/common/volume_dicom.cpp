@@ -68,6 +68,15 @@ void check_files(const std::vector<DicomFile>& files) {
   const DicomFile& first = files.front();
   for (const DicomFile& file : files) {
     if (!file.problem.empty()) throw FileError(file.path, file.problem);
+    if (file.compressed) {
+      FrameSize size;
+      size.frames = file.frames.size();
+      size.pixels = static_cast<std::uint64_t>(file.rows * file.columns);
+      size.bytes_per_pixel = sample_size(file.type);
+      const std::string problem =
+          check_fragments(file.path, file.transfer_syntax, file.fragments, size);
+      if (!problem.empty()) throw FileError(file.path, problem);
+    }
     if (file.rows != first.rows || file.columns != first.columns || file.type != first.type) {
       throw FileError(file.path,
                       "is " + std::to_string(file.columns) + " x " + std::to_string(file.rows) +

@@ -276,11 +276,16 @@ class Reader {
       array.components = *value;
     }
     const std::string format = get(tag, "format");
-    array.appended = format == "appended";
-    if (array.appended) {
+    array.position = tags_.position();
+    if (format == "appended") {
+      array.form = VtiForm::appended;
       const auto offset = parse_integer(trim(get(tag, "offset")));
       if (!offset || *offset < 0) throw bad(tag, "offset", "a number of bytes");
-      array.offset = static_cast<std::uint64_t>(*offset);
+      array.position = static_cast<std::uint64_t>(*offset);
+    } else if (format == "binary") {
+      array.form = VtiForm::base64;
+    } else if (format != "ascii" && !format.empty()) {
+      throw bad(tag, "format", "ascii, binary or appended");
     }
     layout_.pieces.back().arrays.push_back(std::move(array));
   }

@@ -14,13 +14,21 @@ namespace shape3d::apps {
 /// Smallest and largest sample index along i, j and k: i0 i1 j0 j1 k0 k1.
 using Extent = std::array<std::int64_t, 6>;
 
+/// How the samples of an array are written.
+enum class VtiForm {
+  text,     ///< Decimal numbers inside the tag.
+  base64,   ///< Binary data inside the tag.
+  appended  ///< In AppendedData.
+};
+
 /// A DataArray of the points of a piece.
 struct VtiArray {
   std::string name;
   std::string type;  ///< As written: "Int16".
   std::int64_t components = 1;
-  bool appended = false;  ///< In AppendedData, at `offset` from its first byte.
-  std::uint64_t offset = 0;
+  VtiForm form = VtiForm::text;
+  std::uint64_t position =
+      0;  ///< Of the first byte: in the file, or from the first of AppendedData.
 };
 
 struct VtiPiece {

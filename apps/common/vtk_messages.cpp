@@ -1,8 +1,12 @@
 #include "vtk_messages.hpp"
 
+#include <vtkLogger.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
+
+#include <iostream>
+#include <sstream>
 
 #include "text.hpp"
 
@@ -59,16 +63,28 @@ vtkStandardNewMacro(VtkMessages::Window);
 
 struct VtkMessages::State {
   vtkSmartPointer<vtkOutputWindow> previous;
+  vtkLogger::Verbosity previous_verbosity = vtkLogger::VERBOSITY_WARNING;
   vtkSmartPointer<Window> window;
+  std::ostringstream sink;
+  std::streambuf* previous_cerr = nullptr;
 };
 
 VtkMessages::VtkMessages() : state_(std::make_unique<State>()) {
   state_->previous = vtkOutputWindow::GetInstance();
   state_->window = vtkSmartPointer<Window>::New();
   vtkOutputWindow::SetInstance(state_->window);
+  // VTK's log writes errors to standard error beside the output window.
+  state_->previous_verbosity = vtkLogger::GetCurrentVerbosityCutoff();
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  // GDCM, which decompresses DICOM pixels, writes to std::cerr.
+  state_->previous_cerr = std::cerr.rdbuf(state_->sink.rdbuf());
 }
 
-VtkMessages::~VtkMessages() { vtkOutputWindow::SetInstance(state_->previous); }
+VtkMessages::~VtkMessages() {
+  std::cerr.rdbuf(state_->previous_cerr);
+  vtkLogger::SetStderrVerbosity(state_->previous_verbosity);
+  vtkOutputWindow::SetInstance(state_->previous);
+}
 
 std::string VtkMessages::first_error() const { return state_->window->error; }
 

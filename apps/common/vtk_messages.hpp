@@ -6,7 +6,8 @@
 namespace shape3d::apps {
 
 /// While one exists, what VTK would print goes to it instead: errors and warnings of every VTK
-/// object in the process. Not for use from several threads at a time.
+/// object in the process. What anything writes to std::cerr (GDCM does) is dropped. Not for use
+/// from several threads at a time.
 class VtkMessages {
  public:
   VtkMessages();
