@@ -265,14 +265,13 @@ TEST_CASE("an isovalue outside the range gives a valid empty file and a warning"
 
 TEST_CASE("options reach the library", "[program][extract]") {
   const TemporaryFolder folder;
-  // Two cubes of 2, touching over a layer of zeros, in -1; and checkers of ±1.
+  // Two cubes of 2, touching over a layer of zeros, in -1; and ±1 in no order.
   make_volume(folder / "parts.mhd", {12, 8, 8}, [](int i, int j, int k) {
     const bool inside = j > 1 && j < 6 && k > 1 && k < 6 && i > 1 && i < 10;
     return inside ? (i == 5 ? 0.0F : 1.0F) : -1.0F;
   });
-  make_volume(folder / "checkers.mhd", {10, 10, 10}, [](int i, int j, int k) {
-    return static_cast<float>((i * 7 + j * 3 + k * 5) % 4 < 2 ? 1 : -1);
-  });
+  make_volume(folder / "checkers.mhd", {10, 10, 10},
+              [](int i, int j, int k) { return scattered(i, j, k) > 0 ? 1.0F : -1.0F; });
   const auto report = [&folder](std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--json", "r.json", "-o", "o.ply", "--iso", "0"});
     CHECK(run_in(folder, arguments).status == 0);
