@@ -12,7 +12,6 @@ function(shape3d_add_tests name)
   set(target shape3d_${name}_tests)
   add_executable(${target} ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE ${arg_LINK} shape3d_test_support)
-  target_compile_features(${target} PRIVATE cxx_std_17)
   shape3d_set_warnings(${target})
   catch_discover_tests(${target} TEST_PREFIX "${name}."
     PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT} ${arg_PROPERTIES})

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "classify_row.hpp"
 #include "samples.hpp"
@@ -21,19 +22,30 @@ void shift_row_up(Word* row, std::int64_t words) {
 template <class T>
 class Classifier {
  public:
-  Classifier(const VolumeView& view, double isovalue, const Options& options, SignLattice& lattice)
+  Classifier(const VolumeView& view, const std::vector<Classification>& targets,
+             const Options& options)
       : view_(view),
         strides_(view.effective_strides()),
-        threshold_(isovalue, options.inside),
         capped_(options.border == Border::capped),
-        lattice_(lattice) {}
+        targets_(targets) {
+    for (const Classification& target : targets) {
+      thresholds_.emplace_back(target.isovalue, options.inside);
+    }
+  }
 
-  /// Fills the rows of layers [first, last) of the lattice; counts samples that are not finite.
+  /// Fills the rows of layers [first, last) of the lattices; counts samples that are not finite.
   void classify_layers(std::int64_t first, std::int64_t last) {
-    detail::Buffer<T> gathered;
+    Scratch scratch;
     std::int64_t bad = 0;
     for (std::int64_t k = first; k < last; ++k) {
-      for (std::int64_t j = 0; j < lattice_.ny; ++j) bad += classify_row(j, k, gathered);
+      for (std::int64_t j = 0; j < targets_[0].lattice->ny; ++j) {
+        // A row is read once for all isovalues.
+        std::int64_t bad_in_row = 0;
+        for (std::size_t n = 0; n < targets_.size(); ++n) {
+          bad_in_row = classify_row(j, k, thresholds_[n], *targets_[n].lattice, scratch);
+        }
+        bad += bad_in_row;
+      }
     }
     if (bad != 0) not_finite_.fetch_add(bad, std::memory_order_relaxed);
   }
@@ -60,71 +72,81 @@ class Classifier {
   }
 
  private:
+  /// Room for one row.
+  struct Scratch {
+    std::vector<T> gathered;  ///< Samples of a row that are not contiguous.
+    std::vector<Word> not_finite;
+  };
+
   const T* row_start(std::int64_t j, std::int64_t k) const {
     return static_cast<const T*>(view_.data) + j * strides_[1] + k * strides_[2];
   }
 
-  std::int64_t classify_row(std::int64_t j, std::int64_t k, detail::Buffer<T>& gathered) {
-    const std::int64_t row = lattice_.row(j, k);
-    Word* n = lattice_.n_bits.data() + row * lattice_.words;
-    Word* z = lattice_.z_bits.data() + row * lattice_.words;
-    Word* masked = lattice_.masked ? lattice_.cell_bits.data() + row * lattice_.words : nullptr;
-    std::uint8_t& flags = lattice_.flags[static_cast<std::size_t>(row)];
+  std::int64_t classify_row(std::int64_t j, std::int64_t k, const Threshold<T>& threshold,
+                            SignLattice& lattice, Scratch& scratch) const {
+    const std::int64_t row = lattice.row(j, k);
+    Word* n = lattice.n_bits.data() + row * lattice.words;
+    Word* z = lattice.z_bits.data() + row * lattice.words;
+    Word* masked = lattice.masked ? lattice.cell_bits.data() + row * lattice.words : nullptr;
+    std::uint8_t& flags = lattice.flags[static_cast<std::size_t>(row)];
     const std::int64_t margin = capped_ ? 1 : 0;
     j -= margin;
     k -= margin;
     if (j < 0 || k < 0 || j >= view_.dims[1] || k >= view_.dims[2]) {
-      std::fill_n(n, lattice_.words, Word{0});
-      std::fill_n(z, lattice_.words, Word{0});
-      if (masked != nullptr) std::fill_n(masked, lattice_.words, Word{0});
+      std::fill_n(n, lattice.words, Word{0});
+      std::fill_n(z, lattice.words, Word{0});
+      if (masked != nullptr) std::fill_n(masked, lattice.words, Word{0});
       flags = kRowPositive;
       return 0;
     }
     const std::int64_t nx = view_.dims[0];
     const T* samples = row_start(j, k);
     if (strides_[0] != 1) {
-      gathered.resize(static_cast<std::size_t>(nx));
+      scratch.gathered.resize(static_cast<std::size_t>(nx));
       for (std::int64_t i = 0; i < nx; ++i)
-        gathered[static_cast<std::size_t>(i)] = samples[i * strides_[0]];
-      samples = gathered.data();
+        scratch.gathered[static_cast<std::size_t>(i)] = samples[i * strides_[0]];
+      samples = scratch.gathered.data();
+    }
+    const std::int64_t filled = (nx + 63) / 64;
+    std::fill(n + filled, n + lattice.words, Word{0});
+    std::fill(z + filled, z + lattice.words, Word{0});
+    scratch.not_finite.assign(static_cast<std::size_t>(lattice.words), 0);
+    if (threshold.rule == Threshold<T>::Rule::compare) {
+      classify_samples(samples, nx, threshold, {n, z, scratch.not_finite.data()});
+    } else {
+      const bool all = threshold.rule == Threshold<T>::Rule::all_negative;
+      for (std::int64_t w = 0; w < filled; ++w) n[w] = all ? below_mask(nx, w) : 0;
+      std::fill_n(z, filled, Word{0});
     }
     Word any_negative = 0, any_zero = 0, any_positive = 0;
     std::int64_t bad = 0;
-    for (std::int64_t w = 0; w < lattice_.words; ++w) {
-      const auto count = static_cast<int>(std::clamp<std::int64_t>(nx - 64 * w, 0, 64));
-      Word negative = 0, zero = 0, not_finite = 0;
-      if (threshold_.rule == Threshold<T>::Rule::compare) {
-        classify_word(samples + 64 * w, count, threshold_, negative, zero, not_finite);
-      } else if (threshold_.rule == Threshold<T>::Rule::all_negative) {
-        negative = below_mask(nx, w);
-      }
+    for (std::int64_t w = 0; w < filled; ++w) {
+      const Word not_finite = scratch.not_finite[static_cast<std::size_t>(w)];
       if (not_finite != 0) {
-        negative &= ~not_finite;
+        n[w] &= ~not_finite;
         bad += __builtin_popcountll(not_finite);
       }
-      n[w] = negative;
-      z[w] = zero;
-      if (masked != nullptr) masked[w] = not_finite;
-      any_negative |= negative;
-      any_zero |= zero;
-      any_positive |= ~(negative | zero) & below_mask(nx, w);
+      any_negative |= n[w];
+      any_zero |= z[w];
+      any_positive |= ~(n[w] | z[w]) & below_mask(nx, w);
     }
+    if (masked != nullptr) std::copy(scratch.not_finite.begin(), scratch.not_finite.end(), masked);
     flags = static_cast<std::uint8_t>((any_negative != 0 ? kRowNegative : 0) |
                                       (any_positive != 0 || capped_ ? kRowPositive : 0) |
                                       (any_zero != 0 ? kRowZero : 0) | (bad != 0 ? kRowMasked : 0));
     if (capped_) {
-      shift_row_up(n, lattice_.words);
-      shift_row_up(z, lattice_.words);
-      if (masked != nullptr) shift_row_up(masked, lattice_.words);
+      shift_row_up(n, lattice.words);
+      shift_row_up(z, lattice.words);
+      if (masked != nullptr) shift_row_up(masked, lattice.words);
     }
     return bad;
   }
 
   const VolumeView& view_;
   std::array<std::int64_t, 3> strides_;
-  Threshold<T> threshold_;
   bool capped_;
-  SignLattice& lattice_;
+  const std::vector<Classification>& targets_;
+  std::vector<Threshold<T>> thresholds_;
   std::atomic<std::int64_t> not_finite_{0};
 };
 
@@ -151,10 +173,7 @@ void make_cell_bits(SignLattice& lattice) {
   }
 }
 
-}  // namespace
-
-bool classify(const VolumeView& view, double isovalue, const Options& options,
-              const LayerLoop& for_layers, SignLattice& lattice) {
+void resize(SignLattice& lattice, const VolumeView& view, const Options& options) {
   const std::int64_t margin = options.border == Border::capped ? 2 : 0;
   lattice.nx = view.dims[0] + margin;
   lattice.ny = view.dims[1] + margin;
@@ -166,21 +185,30 @@ bool classify(const VolumeView& view, double isovalue, const Options& options,
   lattice.z_bits.resize(size);
   lattice.flags.resize(static_cast<std::size_t>(lattice.rows()));
   lattice.n_bits.back() = lattice.z_bits.back() = 0;
+}
 
+}  // namespace
+
+bool classify(const VolumeView& view, const std::vector<Classification>& targets,
+              const Options& options, const LayerLoop& for_layers) {
+  for (const Classification& target : targets) resize(*target.lattice, view, options);
+  const std::int64_t layers = targets[0].lattice->nz;
   return visit_sample_type(view.type, [&](auto sample) {
-    Classifier<decltype(sample)> classifier(view, isovalue, options, lattice);
+    Classifier<decltype(sample)> classifier(view, targets, options);
     const auto body = [&](std::int64_t first, std::int64_t last) {
       classifier.classify_layers(first, last);
     };
-    if (!for_layers(lattice.nz, body)) return false;
+    if (!for_layers(layers, body)) return false;
     if (classifier.not_finite() == 0) return true;
     if (options.non_finite == NonFinite::error) classifier.report_not_finite();
-    lattice.masked = true;
-    lattice.cell_bits.resize(size);
-    lattice.cell_bits.back() = 0;
+    for (const Classification& target : targets) {
+      target.lattice->masked = true;
+      target.lattice->cell_bits.resize(target.lattice->n_bits.size());
+      target.lattice->cell_bits.back() = 0;
+    }
     classifier.forget_not_finite();
-    if (!for_layers(lattice.nz, body)) return false;
-    make_cell_bits(lattice);
+    if (!for_layers(layers, body)) return false;
+    for (const Classification& target : targets) make_cell_bits(*target.lattice);
     return true;
   });
 }

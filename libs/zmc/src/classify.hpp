@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "shape3d/zmc/options.hpp"
 #include "shape3d/zmc/volume_view.hpp"
@@ -13,11 +14,18 @@ namespace shape3d::zmc::detail {
 using LayerLoop =
     std::function<bool(std::int64_t, const std::function<void(std::int64_t, std::int64_t)>&)>;
 
-/// Signs of all samples of a view by comparison with the isovalue; sized and filled anew. With a
-/// capped border the lattice is one sample larger on every side and positive there.
+/// A lattice to be filled, and by comparison with what.
+struct Classification {
+  double isovalue = 0.0;
+  SignLattice* lattice = nullptr;
+};
+
+/// Signs of all samples of a view by comparison with one or more isovalues, in one pass over the
+/// samples; the lattices are sized and filled anew. With a capped border they are one sample larger
+/// on every side and positive there.
 /// @return false when the loop was cancelled.
 /// @throws std::invalid_argument  a sample is not finite and options.non_finite is error.
-bool classify(const VolumeView& view, double isovalue, const Options& options,
-              const LayerLoop& for_layers, SignLattice& lattice);
+bool classify(const VolumeView& view, const std::vector<Classification>& targets,
+              const Options& options, const LayerLoop& for_layers);
 
 }  // namespace shape3d::zmc::detail

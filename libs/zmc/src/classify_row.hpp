@@ -1,6 +1,6 @@
 #pragma once
 
-// The comparison of one row of samples with the isovalue.
+// The comparison of one row of samples with the isovalue, for each instruction set.
 
 #include <cmath>
 #include <cstdint>
@@ -52,34 +52,16 @@ struct Threshold {
   }
 };
 
-/// Up to 64 contiguous samples → negative bits, zero bits, and for reals the bits of those not
-/// finite.
+/// Words of one row.
+struct RowWords {
+  Word* negative;
+  Word* zero;
+  Word* not_finite;  ///< Only written for reals.
+};
+
+/// Compares `count` contiguous samples; bits beyond them are 0.
 template <class T>
-inline void classify_word(const T* samples, int count, const Threshold<T>& threshold,
-                          Word& negative, Word& zero, Word& not_finite) {
-  alignas(64) std::uint8_t n[64] = {}, z[64] = {}, b[64] = {};
-  const T bound = threshold.bound, value = threshold.zero;
-  if (threshold.above) {
-    for (int i = 0; i < count; ++i) n[i] = samples[i] > bound;
-  } else {
-    for (int i = 0; i < count; ++i) n[i] = samples[i] < bound;
-  }
-  for (int i = 0; i < count; ++i) z[i] = samples[i] == value;
-  if constexpr (std::is_floating_point_v<T>) {
-    for (int i = 0; i < count; ++i) b[i] = !(std::abs(samples[i]) <= std::numeric_limits<T>::max());
-  }
-  const auto pack = [](const std::uint8_t* bytes) {
-    Word word = 0;
-    for (int octet = 0; octet < 8; ++octet) {
-      Word eight = 0;
-      __builtin_memcpy(&eight, bytes + 8 * octet, 8);  // one 0/1 byte a sample → one bit a sample
-      word |= ((eight * 0x0102040810204080u) >> 56) << (8 * octet);
-    }
-    return word;
-  };
-  negative = pack(n);
-  zero = threshold.has_zero ? pack(z) : 0;
-  not_finite = std::is_floating_point_v<T> ? pack(b) : 0;
-}
+void classify_samples(const T* samples, std::int64_t count, const Threshold<T>& threshold,
+                      const RowWords& words);
 
 }  // namespace shape3d::zmc::detail

@@ -28,7 +28,7 @@ class ContourBuilder {
         axis_(axis),
         magnitude_(view, isovalue, false),
         geometry_(view, false) {
-    detail::classify(view, isovalue, options, detail::layer_loop(options, 0.0, 1.0), lattice_);
+    detail::classify(view, {{isovalue, &lattice_}}, options, detail::layer_loop(options, 0.0, 1.0));
     const detail::LatticeCells cells(lattice_, magnitude_, options.ties);
     regions_.solve(cells);
 

@@ -10,20 +10,21 @@
 namespace shape3d::zmc::detail {
 
 /// Lattice coordinates to world coordinates. With a capped border lattice indices start one sample
-/// early.
+/// early; those of a lattice that begins at a later plane of the volume, at that plane.
 class Geometry {
  public:
-  Geometry(const VolumeView& view, bool capped)
+  explicit Geometry(const VolumeView& view, bool capped = false, std::int64_t first_plane = 0)
       : origin_(view.origin),
         axes_(view.direction * view.spacing.asDiagonal()),
-        shift_(capped ? 1.0 : 0.0) {}
+        shift_(capped ? 1.0 : 0.0),
+        z_shift_(shift_ - static_cast<double>(first_plane)) {}
 
   [[nodiscard]] Eigen::Vector3d world(double x, double y, double z) const {
     return plane(z) + axes_.col(1) * (y - shift_) + axes_.col(0) * (x - shift_);
   }
   /// Terms of world() in their order of summation.
   [[nodiscard]] Eigen::Vector3d plane(double z) const {
-    return origin_ + axes_.col(2) * (z - shift_);
+    return origin_ + axes_.col(2) * (z - z_shift_);
   }
   [[nodiscard]] Eigen::Vector3d y_term(double y) const { return axes_.col(1) * (y - shift_); }
   [[nodiscard]] Eigen::Vector3d x_term(double x) const { return axes_.col(0) * (x - shift_); }
@@ -40,9 +41,7 @@ class Geometry {
     p += Eigen::Vector3d(low[0], low[1], low[2]);
     if (vertex < 12) {
       const int axis = edge_axis(vertex);
-      const std::int64_t x = i + low[0], y = j + low[1], z = k + low[2];
-      p[axis] += crossing_parameter(magnitude(x, y, z),
-                                    magnitude(x + (axis == 0), y + (axis == 1), z + (axis == 2)));
+      p[axis] += magnitude.crossing(i + low[0], j + low[1], k + low[2], axis);
     }
     return world(p[0], p[1], p[2]);
   }
@@ -63,6 +62,7 @@ class Geometry {
   Eigen::Vector3d origin_;
   Eigen::Matrix3d axes_;
   double shift_;
+  double z_shift_;
 };
 
 }  // namespace shape3d::zmc::detail

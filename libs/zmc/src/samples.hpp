@@ -27,14 +27,26 @@ struct MagnitudeReader {
         isovalue(iso) {}
 
   double operator()(std::int64_t i, std::int64_t j, std::int64_t k) const {
-    if constexpr (Capped) {
-      --i, --j, --k;
-      if (i < 0 || j < 0 || k < 0 || i >= dims[0] || j >= dims[1] || k >= dims[2])
-        return kHugeMagnitude;
-    }
-    const auto sample = static_cast<double>(data[i * strides[0] + j * strides[1] + k * strides[2]]);
-    if constexpr (std::is_same_v<T, double>) return magnitude_between(sample, isovalue);
-    return std::abs(sample - isovalue);
+    if (!inside(i, j, k)) return kHugeMagnitude;
+    return magnitude_between(sample(i, j, k), isovalue);
+  }
+  /// Place of the crossing on the edge from (i, j, k) along an axis.
+  double crossing(std::int64_t i, std::int64_t j, std::int64_t k, int axis) const {
+    const std::int64_t x = i + (axis == 0), y = j + (axis == 1), z = k + (axis == 2);
+    if (!inside(i, j, k)) return 1.0 - kCrossingMargin;
+    if (!inside(x, y, z)) return kCrossingMargin;
+    return crossing_parameter<T>(sample(i, j, k), sample(x, y, z), isovalue);
+  }
+
+ private:
+  static constexpr std::int64_t kMargin = Capped ? 1 : 0;
+
+  bool inside(std::int64_t i, std::int64_t j, std::int64_t k) const {
+    return !Capped || (i > 0 && j > 0 && k > 0 && i <= dims[0] && j <= dims[1] && k <= dims[2]);
+  }
+  double sample(std::int64_t i, std::int64_t j, std::int64_t k) const {
+    return static_cast<double>(
+        data[(i - kMargin) * strides[0] + (j - kMargin) * strides[1] + (k - kMargin) * strides[2]]);
   }
 };
 
@@ -60,34 +72,44 @@ decltype(auto) visit_sample_type(SampleType type, Visitor&& visit) {
   return visit(double{});
 }
 
-/// A MagnitudeReader of any type behind one call, for places where speed does not matter.
+/// A MagnitudeReader of any type behind calls, for places where speed does not matter.
 class AnyMagnitudeReader {
  public:
   AnyMagnitudeReader(const VolumeView& view, double isovalue, bool capped)
-      : view_(view), isovalue_(isovalue), read_(choose(view.type, capped)) {}
+      : view_(view), isovalue_(isovalue), functions_(choose(view.type, capped)) {}
 
   double operator()(std::int64_t i, std::int64_t j, std::int64_t k) const {
-    return read_(view_, isovalue_, i, j, k);
+    return functions_.magnitude(view_, isovalue_, i, j, k);
+  }
+  double crossing(std::int64_t i, std::int64_t j, std::int64_t k, int axis) const {
+    return functions_.crossing(view_, isovalue_, i, j, k, axis);
   }
 
  private:
-  using Read = double (*)(const VolumeView&, double, std::int64_t, std::int64_t, std::int64_t);
+  struct Functions {
+    double (*magnitude)(const VolumeView&, double, std::int64_t, std::int64_t, std::int64_t);
+    double (*crossing)(const VolumeView&, double, std::int64_t, std::int64_t, std::int64_t, int);
+  };
 
-  template <class T, bool Capped>
-  static double read(const VolumeView& view, double isovalue, std::int64_t i, std::int64_t j,
-                     std::int64_t k) {
-    return MagnitudeReader<T, Capped>(view, isovalue)(i, j, k);
+  template <class Reader>
+  static Functions functions() {
+    return {
+        [](const VolumeView& view, double isovalue, std::int64_t i, std::int64_t j,
+           std::int64_t k) { return Reader(view, isovalue)(i, j, k); },
+        [](const VolumeView& view, double isovalue, std::int64_t i, std::int64_t j, std::int64_t k,
+           int axis) { return Reader(view, isovalue).crossing(i, j, k, axis); }};
   }
-  static Read choose(SampleType type, bool capped) {
-    return visit_sample_type(type, [capped](auto sample) -> Read {
+  static Functions choose(SampleType type, bool capped) {
+    return visit_sample_type(type, [capped](auto sample) {
       using T = decltype(sample);
-      return capped ? &read<T, true> : &read<T, false>;
+      return capped ? functions<MagnitudeReader<T, true>>()
+                    : functions<MagnitudeReader<T, false>>();
     });
   }
 
   const VolumeView& view_;
   double isovalue_;
-  Read read_;
+  Functions functions_;
 };
 
 }  // namespace shape3d::zmc::detail

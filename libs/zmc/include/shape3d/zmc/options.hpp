@@ -54,6 +54,8 @@ struct Options {
   ZeroFaces zero_faces = ZeroFaces::boundary;
   NonFinite non_finite = NonFinite::error;
   Border border = Border::open;
+  bool normals = false;    ///< Fill Surface::normals.
+  bool gradients = false;  ///< Fill Surface::gradients.
   int threads = 0;  ///< 0: all processors. The result is the same, byte for byte, for any number.
   /// Surfaces of more vertices are not generated: Status::too_many_vertices, with the counts filled
   /// in. 0: as many as the index type can number.

@@ -1,22 +1,39 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <new>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "shape3d/zmc/export.hpp"
+
 namespace shape3d::zmc {
 
 namespace detail {
-/// std::allocator whose containers leave new elements uninitialised on resize().
+/// Memory for large arrays, on huge pages where the system has them: a first touch costs a page
+/// fault, which is dearer than the writing itself. @throws std::bad_alloc
+[[nodiscard]] SHAPE3D_ZMC_EXPORT void* allocate_array(std::size_t bytes);
+SHAPE3D_ZMC_EXPORT void free_array(void* array, std::size_t bytes) noexcept;
+
+/// Allocator whose containers leave new elements uninitialised on resize().
 template <class T>
-struct UninitializedAllocator : std::allocator<T> {
+struct ArrayAllocator {
+  using value_type = T;
+
+  ArrayAllocator() = default;
   template <class U>
-  struct rebind {
-    using other = UninitializedAllocator<U>;
-  };
+  ArrayAllocator(const ArrayAllocator<U>& /*other*/) noexcept {
+  }  // NOLINT(google-explicit-constructor): as allocators are
+
+  [[nodiscard]] T* allocate(std::size_t count) {
+    if (count > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
+    return static_cast<T*>(allocate_array(count * sizeof(T)));
+  }
+  void deallocate(T* array, std::size_t count) noexcept { free_array(array, count * sizeof(T)); }
   template <class U>
   void construct(U* p) noexcept {
     ::new (static_cast<void*>(p)) U;
@@ -25,9 +42,11 @@ struct UninitializedAllocator : std::allocator<T> {
   void construct(U* p, Args&&... args) {
     ::new (static_cast<void*>(p)) U(std::forward<Args>(args)...);
   }
+  friend bool operator==(const ArrayAllocator& /*a*/, const ArrayAllocator& /*b*/) { return true; }
+  friend bool operator!=(const ArrayAllocator& /*a*/, const ArrayAllocator& /*b*/) { return false; }
 };
 template <class T>
-using Buffer = std::vector<T, UninitializedAllocator<T>>;
+using Buffer = std::vector<T, ArrayAllocator<T>>;
 }  // namespace detail
 
 /// Where a triangle comes from.
@@ -69,6 +88,13 @@ struct Surface {
 
   detail::Buffer<Real> positions;  ///< 3·n world coordinates, x y z of vertex 0 first.
   detail::Buffer<Index> indices;   ///< 3·m vertex ids, counter-clockwise seen from outside.
+  /// With Options::gradients, 3·n: the gradient of the samples in world units, by central differences
+  /// at lattice points (one-sided at the border and beside masked samples, 0 where neither side is
+  /// there), interpolated along lattice edges, averaged at centroids. On a cap it is 0.
+  detail::Buffer<Real> gradients;
+  /// With Options::normals, 3·n: the unit vector along the gradient that points from inside to
+  /// outside; on a cap the direction out of the volume. Zero where the gradient vanishes.
+  detail::Buffer<Real> normals;
   std::int64_t first_zero_face =
       0;  ///< Triangles [first_zero_face, first_closing) are of kind zero_face.
   std::int64_t first_closing = 0;  ///< Triangles [first_closing, m) are of kind closing.
@@ -86,6 +112,14 @@ struct Surface {
   /// #F by 3, rows of vertex ids.
   [[nodiscard]] Eigen::Map<const Triangles> F() const {
     return {indices.data(), triangle_count(), 3};
+  }
+  /// #V by 3, or empty.
+  [[nodiscard]] Eigen::Map<const Points> N() const {
+    return {normals.data(), static_cast<Eigen::Index>(normals.size() / 3), 3};
+  }
+  /// #V by 3, or empty.
+  [[nodiscard]] Eigen::Map<const Points> G() const {
+    return {gradients.data(), static_cast<Eigen::Index>(gradients.size() / 3), 3};
   }
   [[nodiscard]] TriangleKind kind(std::int64_t triangle) const {
     if (triangle < first_zero_face) return TriangleKind::patch;

@@ -1,0 +1,58 @@
+#include "pipeline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "parallel.hpp"
+#include "plan.hpp"
+
+namespace shape3d::zmc::detail {
+
+void check_arguments(const VolumeView& view, double isovalue, const Options& options) {
+  validate(view);
+  if (view.dims[0] > Plan::kLongestRow - 2) {
+    throw std::invalid_argument("dims[0]: expected at most " +
+                                std::to_string(Plan::kLongestRow - 2) + " samples in a row, got " +
+                                std::to_string(view.dims[0]));
+  }
+  if (!std::isfinite(isovalue)) {
+    throw std::invalid_argument("isovalue: expected a finite value, got " +
+                                std::to_string(isovalue));
+  }
+  if (options.threads < 0) {
+    throw std::invalid_argument("options.threads: expected 0 or more, got " +
+                                std::to_string(options.threads));
+  }
+  if (options.max_vertices < 0) {
+    throw std::invalid_argument("options.max_vertices: expected 0 or more, got " +
+                                std::to_string(options.max_vertices));
+  }
+}
+
+LayerLoop layer_loop(const Options& options, double from, double to) {
+  const int threads = resolve_threads(options.threads);
+  return [&options, threads, from, to, reached = from](
+             std::int64_t count,
+             const std::function<void(std::int64_t, std::int64_t)>& body) mutable {
+    constexpr std::int64_t kGrain = 1;
+    if (!options.progress) {
+      parallel_ranges(count, kGrain, threads, body);
+      return true;
+    }
+    constexpr std::int64_t kBatches = 16;
+    const std::int64_t step = std::max<std::int64_t>(1, (count + kBatches - 1) / kBatches);
+    for (std::int64_t first = 0; first < count; first += step) {
+      const std::int64_t last = std::min(first + step, count);
+      parallel_ranges(last - first, kGrain, threads,
+                      [&](std::int64_t a, std::int64_t b) { body(first + a, first + b); });
+      const double share = static_cast<double>(last) / static_cast<double>(count);
+      reached = std::max(reached, from + (to - from) * share);  // several loops may share the range
+      if (!options.progress(reached)) return false;
+    }
+    return true;
+  };
+}
+
+}  // namespace shape3d::zmc::detail
