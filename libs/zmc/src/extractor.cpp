@@ -27,6 +27,8 @@ Status finish_empty(Surface<Real, Index>& surface, Status status) {
   surface.indices.clear();
   surface.gradients.clear();
   surface.normals.clear();
+  surface.edges.clear();
+  surface.edge_parameters.clear();
   surface.first_zero_face = surface.first_closing = 0;
   return status;
 }
@@ -70,6 +72,10 @@ Status build_surface(const VolumeView& view, double isovalue, const Options& opt
   surface.indices.resize(static_cast<std::size_t>(3 * triangles));
   if (options.gradients) surface.gradients.resize(surface.positions.size());
   if (options.normals) surface.normals.resize(surface.positions.size());
+  if (options.edges) {
+    surface.edges.resize(static_cast<std::size_t>(vertices));
+    surface.edge_parameters.resize(static_cast<std::size_t>(vertices));
+  }
   const detail::Geometry geometry(view, options.border == Border::capped);
   if (!detail::generate(view, isovalue, options, geometry, cells, job.plan,
                         detail::layer_loop(options, middle, to), surface)) {

@@ -15,7 +15,8 @@ VertexArrays<Real> arrays_of(Surface<Real, Index>& surface) {
   const auto array = [](detail::Buffer<Real>& buffer) {
     return buffer.empty() ? nullptr : buffer.data();
   };
-  return {array(surface.positions), array(surface.gradients), array(surface.normals)};
+  return {array(surface.positions), array(surface.gradients), array(surface.normals),
+          surface.edges.empty() ? nullptr : surface.edges.data(), array(surface.edge_parameters)};
 }
 
 template <class Real, class Index>
@@ -62,6 +63,10 @@ class Generator final : public CentroidSink {
     }
     for (int d = 0; d < 3; ++d) {
       arrays_.positions[3 * place_in_part + d] = static_cast<Real>(place[d] / count);
+    }
+    if (arrays_.edges != nullptr) {
+      arrays_.edges[id] = -1;
+      arrays_.edge_parameters[id] = Real{0};
     }
     if (arrays_.with_attributes()) {
       const double length = normal.norm();

@@ -238,6 +238,9 @@ Status stream(const PlaneSource& source, double isovalue, const Options& options
   if (options.border == Border::capped) {
     throw std::invalid_argument("options.border: stream() needs Border::open, got capped");
   }
+  if (options.edges) {
+    throw std::invalid_argument("options.edges: stream() does not say on which edges vertices lie");
+  }
   if (stream_options.planes_per_slab < 0) {
     throw std::invalid_argument("planes_per_slab: expected 0 or more, got " +
                                 std::to_string(stream_options.planes_per_slab));

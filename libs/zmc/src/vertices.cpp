@@ -218,6 +218,7 @@ void VertexWriter<Real>::write_crossings(std::int64_t j, std::int64_t k, int axi
         put(m, geometry_.plane(k, parameter_[m]) + y_term + geometry_.x_term(index_[m]));
       }
   }
+  if (arrays_.edges != nullptr) write_edges(j, k, axis, n, first);
   if (arrays_.with_attributes()) write_attributes(j, k, axis, n, first);
 }
 
@@ -232,9 +233,27 @@ void VertexWriter<Real>::write_zeros(std::int64_t j, std::int64_t k, std::int64_
     const Eigen::Vector3d p = line + geometry_.x_term(index_[m]);
     for (int d = 0; d < 3; ++d) out[3 * m + static_cast<std::size_t>(d)] = static_cast<Real>(p[d]);
   }
-  if (arrays_.with_attributes()) {
+  if (arrays_.with_attributes() || arrays_.edges != nullptr) {
     std::fill_n(parameter_.begin(), n, 0.0);
-    write_attributes(j, k, 0, n, first);
+    if (arrays_.edges != nullptr) write_edges(j, k, 0, n, first);
+    if (arrays_.with_attributes()) write_attributes(j, k, 0, n, first);
+  }
+}
+
+template <class Real>
+void VertexWriter<Real>::write_edges(std::int64_t j, std::int64_t k, int axis, std::size_t count,
+                                     std::int64_t first) const {
+  const std::int64_t margin = capped_ ? 1 : 0;
+  const auto d = static_cast<std::size_t>(axis);
+  for (std::size_t m = 0; m < count; ++m) {
+    std::array<std::int64_t, 3> lower{index_[m] - margin, j - margin, k - margin};
+    const auto vertex = static_cast<std::size_t>(first) + m;
+    const bool before = lower[d] < 0;
+    const bool cap = before || (parameter_[m] > 0.0 && lower[d] + 1 >= view_.dims[d]);
+    if (before) lower[d] = 0;
+    arrays_.edges[vertex] =
+        3 * (lower[0] + view_.dims[0] * (lower[1] + view_.dims[1] * lower[2])) + (cap ? 0 : axis);
+    arrays_.edge_parameters[vertex] = cap ? Real{0} : static_cast<Real>(parameter_[m]);
   }
 }
 

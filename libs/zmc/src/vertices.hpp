@@ -18,6 +18,8 @@ struct VertexArrays {
   Real* positions = nullptr;
   Real* gradients = nullptr;
   Real* normals = nullptr;
+  std::int64_t* edges = nullptr;  ///< As Surface::edges; with it, edge_parameters.
+  Real* edge_parameters = nullptr;
 
   void put(std::int64_t vertex, const VertexAttributes& attributes) const {
     for (int d = 0; d < 3; ++d) {
@@ -42,9 +44,11 @@ class VertexWriter {
 
  private:
   void write_crossings(std::int64_t j, std::int64_t k, int axis, std::int64_t first);
+  void write_edges(std::int64_t j, std::int64_t k, int axis, std::size_t count,
+                   std::int64_t first) const;
   void write_zeros(std::int64_t j, std::int64_t k, std::int64_t first);
-  /// Attributes of `count` vertices in hand on edges along an axis; parameters of 0 stand for
-  /// lattice points.
+  /// Edges and attributes of `count` vertices in hand on edges along an axis; parameters of 0 stand
+  /// for lattice points.
   void write_attributes(std::int64_t j, std::int64_t k, int axis, std::size_t count,
                         std::int64_t first);
 

@@ -211,6 +211,10 @@ TEST_CASE("stream names what it refuses", "[zmc][contract]") {
   capped.border = Border::capped;
   CHECK_THROWS_WITH(stream<double>(source, 0.0, capped, {}, accept),
                     Catch::Contains("options.border"));
+  Options edges;
+  edges.edges = true;
+  CHECK_THROWS_WITH(stream<double>(source, 0.0, edges, {}, accept),
+                    Catch::Contains("options.edges"));
   StreamOptions negative;
   negative.planes_per_slab = -2;
   CHECK_THROWS_WITH(stream<double>(source, 0.0, Options{}, negative, accept),
