@@ -65,8 +65,8 @@ class Generator final : public CentroidSink {
       arrays_.positions[3 * place_in_part + d] = static_cast<Real>(place[d] / count);
     }
     if (arrays_.edges != nullptr) {
-      arrays_.edges[id] = -1;
-      arrays_.edge_parameters[id] = Real{0};
+      arrays_.edges[place_in_part] = -1;
+      arrays_.edge_parameters[place_in_part] = Real{0};
     }
     if (arrays_.with_attributes()) {
       const double length = normal.norm();

@@ -49,8 +49,7 @@ struct StreamOptions {
 ///
 /// @param counts  Totals over all slabs; may be null. options.max_vertices is a limit on the total.
 /// @throws std::invalid_argument  as extract() (a bad source is named by the field); options.border
-/// is
-///         capped; source.read is empty; planes_per_slab is negative.
+///         is capped or options.edges is set; source.read is empty; planes_per_slab is negative.
 /// Memory: planes_per_slab + 3 planes of samples and signs, and the surface of a slab.
 template <class Real>
 SHAPE3D_ZMC_EXPORT Status stream(const PlaneSource& source, double isovalue, const Options& options,
