@@ -140,7 +140,7 @@ std::string draw_face_sheet() {
   draw_legend(page, 34, y - 34);
   y = page.height() - kHead - 26;
 
-  heading(page, y, std::to_string(single.size()) + ": faces that bilinear interpolation decides");
+  heading(page, y, std::to_string(single.size()) + " faces that bilinear interpolation decides");
   const double single_width = (kWidth - 20.0) / static_cast<double>(single.size());
   for (std::size_t n = 0; n < single.size(); ++n) {
     const double x = 10 + (static_cast<double>(n) + 0.5) * single_width;
@@ -154,8 +154,8 @@ std::string draw_face_sheet() {
 
   heading(page, y,
           std::to_string(pairs.size()) +
-              ": two faces at a zero edge, unfolded; dotted where the rest of the cell "
-              "decides");
+              " pairs of faces at a zero edge, unfolded; dotted where the rest of the "
+              "cell decides");
   for (std::size_t n = 0; n < pairs.size(); ++n) {
     constexpr double kSide = 92;
     const auto column = static_cast<int>(n) % kPairsInRow, row = static_cast<int>(n) / kPairsInRow;
@@ -172,7 +172,7 @@ std::string draw_face_sheet() {
 
   heading(page, y,
           std::to_string(cells.size()) +
-              ": cells at a zero face (case 12, below), and 2: faces inserted between "
+              " cells at a zero face (case 12, below), and 2 faces inserted between "
               "cells (green)");
   for (std::size_t n = 0; n < cells.size() + 2; ++n) {
     const auto column = static_cast<int>(n) % kCellsInRow, row = static_cast<int>(n) / kCellsInRow;
