@@ -101,10 +101,12 @@ void print_rows(const std::string& name, apps::NegatableVolume& volume, double i
     std::optional<Deviation> measured;
     if (distance) measured = deviation(mesh, distance);
     volume.negate();
-    const apps::Mesh negated =
+    apps::Mesh negated =
         run_extractor(contestant.extractor, volume.view(), -isovalue, options).mesh;
     volume.negate();
     const std::int64_t changed = apps::triangles_in_one_only(mesh, negated);
+    apps::merge_coincident(negated);
+    const std::int64_t euler_of_negated = check_mesh(view_of(negated)).euler;
     const auto count = [](std::int64_t n) { return std::to_string(n); };
     std::string row;
     for (const std::string& cell :
@@ -114,7 +116,7 @@ void print_rows(const std::string& name, apps::NegatableVolume& volume, double i
           scientific(measured, &Deviation::surface_max),
           scientific(measured, &Deviation::surface_mean), count(check.degenerate_triangles),
           count(check.zero_area_triangles), count(check.duplicate_triangles),
-          count(check.odd_interior_edges.value_or(0)),
+          count(check.odd_interior_edges.value_or(0)), count(check.euler), count(euler_of_negated),
           changed == 0 ? std::string("yes") : "no: " + count(changed)}) {
       row += "| " + cell + " ";
     }
@@ -161,8 +163,10 @@ void print_measured(const std::filesystem::path& folder, const std::string& file
 void print_table(const std::filesystem::path& data) {
   std::printf(
       "| volume | extractor | vertices | triangles | vertex max | vertex mean | surface max | "
-      "surface mean | repeated id | zero area | duplicates | odd edges | neutral |\n"
-      "| --- | --- | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: | --- |\n");
+      "surface mean | repeated id | zero area | duplicates | odd edges | χ | χ negated | neutral "
+      "|\n"
+      "| --- | --- | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: | --- "
+      "|\n");
   print_shape(plane("plane x = c", 33, {1, 0, 0}));
   print_shape(plane("plane x + y = c", 33, {1, 1, 0}));
   print_shape(plane("plane x + y + z = c", 33, {1, 1, 1}));
