@@ -70,6 +70,15 @@ TEST_CASE("help and version", "[program]") {
   CHECK_THAT(run_shape3d({"--help"}).out, Contains("extract") && Contains("Examples:"));
 }
 
+TEST_CASE("the README shows the program that is built, and commands that parse", "[program][readme]") {
+  const fs::path source = SHAPE3D_SOURCE_FOLDER;
+  const std::string readme = slurp(source / "README.md");
+  CHECK_THAT(readme, Contains("```cpp\n" + slurp(source / "docs/examples/ball.cpp") + "```"));
+  for (const char* command : {"info", "extract", "contours", "check", "render", "compare"}) {
+    CHECK_THAT(readme, Contains(std::string("\nshape3d ") + command + " "));
+  }
+}
+
 TEST_CASE("a ball: area, volume and the keys of the report", "[program][extract]") {
   const TemporaryFolder folder;
   make_volume(folder / "ball.mhd", {40, 40, 40}, ball(40, 15));

@@ -157,7 +157,8 @@ class Streamer {
     window_.move_to(std::max<std::int64_t>(0, slab.first - 1),
                     std::min(source_.dims[2], slab.last + 2));
     view_ = window_.view();
-    detail::classify(view_, {{isovalue_, &lattice_}}, quiet_, detail::layer_loop(quiet_, 0.0, 1.0),
+    detail::classify(view_, {{isovalue_, &lattice_}}, quiet_,
+                     detail::layer_loop(quiet_, detail::sample_count(view_), 0.0, 1.0),
                      window_.first());
   }
 
@@ -179,7 +180,7 @@ class Streamer {
       regions_.solve(cells);
       total.all_zero_cells += regions_.cell_count();
     }
-    const auto loop = detail::layer_loop(quiet_, 0.0, 1.0);
+    const auto loop = detail::layer_loop(quiet_, detail::sample_count(view_), 0.0, 1.0);
     detail::make_plan(lattice_, cells, regions_, quiet_, part, loop, plan_);
     plan_.first_id = delivered;
     add(total, plan_.counts);
