@@ -32,7 +32,7 @@ vtk=$(dpkg-query --show --showformat='${source:Upstream-Version}' libvtk9-dev 2>
   degree 2 (sphere) or 4 (torus), so that linear interpolation along an edge errs in proportion to
   the curvature: at twice the resolution the distances, in spacings, are half; in units of the
   object a quarter.
-- **Merged first.** VTK's filters make several points at one place where a sample is zero. Before
+- **Merged first.** vtkFlyingEdges3D makes several points at one place where a sample is zero. Before
   anything is counted, points at exactly equal positions are merged, in every extractor's surface.
   *Repeated id*: triangles that then have two equal corners. *Zero area*: three different corners on
   a line. *Duplicates*: triangles whose three corners an earlier one has.
@@ -59,7 +59,7 @@ What the table says:
 - `vtkFlyingEdges3D` keeps the triangles that shrink to a line or a point where samples are zero;
   `vtkMarchingCubes` drops them. On random and measured volumes both have pairs of triangles in one
   place.
-- Only `zmc` gives the same surface for every volume and its negative. On the smooth shapes VTK's
+- Only `zmc` gives the same surface for each volume here and its negative. On the smooth shapes VTK's
   surfaces of the two have the same χ and differ in how some polygons are cut; on random and
   measured volumes χ differs: what is joined in one is separate in the other.
 
@@ -67,7 +67,7 @@ What the table says:
 
 EOF
   echo "One extraction of a gyroid of period 64 with noise, $(sed -n 's/^model name\s*: //p' /proc/cpuinfo | head -1), one thread.
-Seconds are of that machine; bytes are of any."
+Seconds are of that machine."
   for real in double float; do
     echo
     echo '```'
