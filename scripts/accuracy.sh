@@ -32,7 +32,7 @@ vtk=$(dpkg-query --show --showformat='${source:Upstream-Version}' libvtk9-dev 2>
   degree 2 (sphere) or 4 (torus), so that linear interpolation along an edge errs in proportion to
   the curvature: at twice the resolution the distances, in spacings, are half; in units of the
   object a quarter.
-- **Merged first.** VTK's filters make several points at one place where a sample is zero. Before
+- **Merged first.** vtkFlyingEdges3D makes several points at one place where a sample is zero. Before
   anything is counted, points at exactly equal positions are merged, in every extractor's surface.
   *Repeated id*: triangles that then have two equal corners. *Zero area*: three different corners on
   a line. *Duplicates*: triangles whose three corners an earlier one has.
@@ -50,19 +50,24 @@ EOF
 
 What the table says:
 
-- The vertices of `compact` are those of Marching Cubes where no sample decides otherwise, and as
-  close to the truth: on smooth shapes the three extractors are equally accurate. `centroid` has more
-  vertices, those in the middle of a polygon being as far from the truth as the polygon is.
-- All surfaces have no odd edge. VTK's close by taking a zero for one of the two signs.
-- `vtkFlyingEdges3D` leaves the triangles that shrink to a line or a point where samples are zero;
-  `vtkMarchingCubes` drops them. Both keep duplicates, pairs of triangles on one place.
-- Only `zmc` gives the same surface for a volume and its negative. The others change even the
-  Euler characteristic: what is joined in one is separate in the other.
+- On the planes, spheres and tori `compact` and VTK's extractors have equally many vertices at the
+  same distances from the truth: taking zeros for what they are costs no accuracy and gains none
+  there. `centroid` has more vertices; those in the middle of a polygon are as far from the truth as
+  the polygon is.
+- No surface here has an odd edge. VTK's are closed because a zero is taken for one of the two
+  signs, which is what makes them differ under negation.
+- `vtkFlyingEdges3D` keeps the triangles that shrink to a line or a point where samples are zero;
+  `vtkMarchingCubes` drops them. On random and measured volumes both have pairs of triangles in one
+  place.
+- Only `zmc` gives the same surface for each volume here and its negative. On the smooth shapes VTK's
+  surfaces of the two have the same χ and differ in how some polygons are cut; on random and
+  measured volumes χ differs: what is joined in one is separate in the other.
 
 ## Time and memory
 
 EOF
-  echo "One extraction of a gyroid of period 64 with noise, $(sed -n 's/^model name\s*: //p' /proc/cpuinfo | head -1), one thread:"
+  echo "One extraction of a gyroid of period 64 with noise, $(sed -n 's/^model name\s*: //p' /proc/cpuinfo | head -1), one thread.
+Seconds are of that machine."
   for real in double float; do
     echo
     echo '```'
