@@ -52,7 +52,8 @@ Status build_surface(const VolumeView& view, double isovalue, const Options& opt
 
   const double middle = from + 0.4 * (to - from);
   if (!detail::make_plan(job.lattice, cells, job.regions, options, {0, job.lattice.nz},
-                         detail::layer_loop(options, from, middle), job.plan)) {
+                         detail::layer_loop(options, detail::sample_count(view), from, middle),
+                         job.plan)) {
     return finish_empty(surface, Status::cancelled);
   }
   surface.counts = job.plan.counts;
@@ -78,7 +79,8 @@ Status build_surface(const VolumeView& view, double isovalue, const Options& opt
   }
   const detail::Geometry geometry(view, options.border == Border::capped);
   if (!detail::generate(view, isovalue, options, geometry, cells, job.plan,
-                        detail::layer_loop(options, middle, to), surface)) {
+                        detail::layer_loop(options, detail::sample_count(view), middle, to),
+                        surface)) {
     return finish_empty(surface, Status::cancelled);
   }
   surface.timings.generate = seconds_since(clock);
@@ -112,8 +114,9 @@ Status Extractor::extract(const VolumeView& view, double isovalue, const Options
   if (workspace_->jobs.empty()) workspace_->jobs.resize(1);
   Job& job = workspace_->jobs[0];
   constexpr double kClassified = 0.2;
-  if (!detail::classify(view, {{isovalue, &job.lattice}}, options,
-                        detail::layer_loop(options, 0.0, kClassified))) {
+  if (!detail::classify(
+          view, {{isovalue, &job.lattice}}, options,
+          detail::layer_loop(options, detail::sample_count(view), 0.0, kClassified))) {
     return Status::cancelled;
   }
   surface.timings.classify = seconds_since(clock);
@@ -136,7 +139,8 @@ std::vector<Status> Extractor::extract(const VolumeView& view, const std::vector
     targets.push_back({isovalues[n], &jobs[n].lattice});
   constexpr double kClassified = 0.1;
   std::vector<Status> statuses(isovalues.size(), Status::cancelled);
-  if (!detail::classify(view, targets, options, detail::layer_loop(options, 0.0, kClassified)))
+  if (!detail::classify(view, targets, options,
+                        detail::layer_loop(options, detail::sample_count(view), 0.0, kClassified)))
     return statuses;
   surfaces[0].timings.classify = seconds_since(clock);
   const double share = (1.0 - kClassified) / static_cast<double>(isovalues.size());

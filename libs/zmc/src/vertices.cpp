@@ -196,26 +196,26 @@ void VertexWriter<Real>::write_crossings(std::int64_t j, std::int64_t k, int axi
     });
   }
 
-  const auto x = static_cast<double>(j), z = static_cast<double>(k);
-  const Eigen::Vector3d plane = geometry_.plane(z), y_term = geometry_.y_term(x);
+  const Eigen::Vector3d plane = geometry_.plane(k), y_term = geometry_.y_term(j);
   const auto put = [&](std::size_t m, const Eigen::Vector3d& p) {
     for (int d = 0; d < 3; ++d) out[3 * m + static_cast<std::size_t>(d)] = static_cast<Real>(p[d]);
   };
   switch (axis) {
     case 0: {
       const Eigen::Vector3d line = plane + y_term;
-      for (std::size_t m = 0; m < n; ++m)
-        put(m, line + geometry_.x_term(index_[m] + parameter_[m]));
+      for (std::size_t m = 0; m < n; ++m) {
+        put(m, line + geometry_.x_term(index_[m], parameter_[m]));
+      }
       break;
     }
     case 1:
       for (std::size_t m = 0; m < n; ++m) {
-        put(m, plane + geometry_.y_term(x + parameter_[m]) + geometry_.x_term(index_[m]));
+        put(m, plane + geometry_.y_term(j, parameter_[m]) + geometry_.x_term(index_[m]));
       }
       break;
     default:
       for (std::size_t m = 0; m < n; ++m) {
-        put(m, geometry_.plane(z + parameter_[m]) + y_term + geometry_.x_term(index_[m]));
+        put(m, geometry_.plane(k, parameter_[m]) + y_term + geometry_.x_term(index_[m]));
       }
   }
   if (arrays_.edges != nullptr) write_edges(j, k, axis, n, first);
@@ -228,8 +228,7 @@ void VertexWriter<Real>::write_zeros(std::int64_t j, std::int64_t k, std::int64_
   const Crossings crossings(lattice_);
   const std::size_t n = collect(
       lattice_.words, [&](std::int64_t w) { return crossings.used_zeros(j, k, w); }, index_.data());
-  const Eigen::Vector3d line =
-      geometry_.plane(static_cast<double>(k)) + geometry_.y_term(static_cast<double>(j));
+  const Eigen::Vector3d line = geometry_.plane(k) + geometry_.y_term(j);
   for (std::size_t m = 0; m < n; ++m) {
     const Eigen::Vector3d p = line + geometry_.x_term(index_[m]);
     for (int d = 0; d < 3; ++d) out[3 * m + static_cast<std::size_t>(d)] = static_cast<Real>(p[d]);
