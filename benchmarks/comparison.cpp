@@ -154,8 +154,10 @@ void measure_zero_price(const Source& source, std::size_t rounds, VolumeResult& 
     return m.cpu / static_cast<double>(std::max<std::int64_t>(1, m.triangles));
   };
   for (std::size_t round = 0; round < rounds; ++round) {
-    const double at = a_triangle(with->run());
-    result.zero_price.push_back(at / a_triangle(without->run()));
+    const bool forwards = round % 2 == 0;
+    const double first = a_triangle((forwards ? with : without)->run());
+    const double second = a_triangle((forwards ? without : with)->run());
+    result.zero_price.push_back(forwards ? first / second : second / first);
   }
 }
 

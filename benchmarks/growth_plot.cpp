@@ -1,6 +1,8 @@
 #include "growth_plot.hpp"
 
 #include <array>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 
 #include <vtkAxis.h>
@@ -113,7 +115,7 @@ void set_axis(vtkAxis* axis, const char* title, double least, double most,
   for (const double tick : ticks) {
     char text[32];
     std::snprintf(text, sizeof text, format, tick);
-    places->InsertNextValue(tick);
+    places->InsertNextValue(std::log10(tick));  // places on a logarithmic axis
     labels->InsertNextValue(text);
   }
   axis->SetCustomTickPositions(places, labels);

@@ -254,10 +254,10 @@ std::string growth(const std::vector<VolumeResult>& results) {
     std::vector<double> voxels, triangles, seconds;
     for (const VolumeResult& r : results) {
       const SubjectResult* s = r.find(column.method, column.threads);
-      if (r.published == nullptr || s == nullptr) continue;
+      if (r.published == nullptr || s == nullptr || column.threads != 1) continue;
       voxels.push_back(r.voxels());
       triangles.push_back(static_cast<double>(s->last.triangles));
-      seconds.push_back(spread(s->wall).median);
+      seconds.push_back(spread(s->cpu).median);
     }
     if (seconds.size() < 3) continue;
     const Plane plane = fit_plane(voxels, triangles, seconds);
