@@ -1,5 +1,8 @@
 #include "byte_source.hpp"
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -122,6 +125,26 @@ std::size_t InflateSource::read(void* out, std::size_t count) {
     }
   }
   return done;
+}
+
+MappedFile::MappedFile(const std::filesystem::path& path) {
+  const std::uint64_t size = readable_size(path);
+  if (size == 0) return;
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) {
+    throw FileError(path, "cannot be opened: " + std::generic_category().message(errno));
+  }
+  void* address = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+  const int error = errno;
+  close(descriptor);
+  if (address == MAP_FAILED) {
+    throw FileError(path, "cannot be read: " + std::generic_category().message(error));
+  }
+  bytes_ = {static_cast<const char*>(address), size};
+}
+
+MappedFile::~MappedFile() {
+  if (!bytes_.empty()) munmap(const_cast<char*>(bytes_.data()), bytes_.size());
 }
 
 std::string read_head(const std::filesystem::path& path, std::size_t count) {

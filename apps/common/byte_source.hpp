@@ -70,6 +70,21 @@ class InflateSource final : public ByteSource {
   std::unique_ptr<State> state_;
 };
 
+/// A file's bytes without reading those that are not looked at.
+class MappedFile {
+ public:
+  /// @throws FileError  as readable_size().
+  explicit MappedFile(const std::filesystem::path& path);
+  ~MappedFile();
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  [[nodiscard]] std::string_view bytes() const { return bytes_; }
+
+ private:
+  std::string_view bytes_;
+};
+
 /// The first `count` bytes of a file, or all of it when it is shorter.
 /// @throws FileError  as readable_size().
 [[nodiscard]] std::string read_head(const std::filesystem::path& path, std::size_t count);

@@ -10,7 +10,6 @@ namespace shape3d::apps {
 namespace {
 
 constexpr const char* kRle = "1.2.840.10008.1.2.5";
-constexpr std::string_view kJpegFamily = "1.2.840.10008.1.2.4.";
 constexpr std::size_t kRleHeader = 64;
 constexpr std::size_t kMostSegments = 15;
 
@@ -117,13 +116,9 @@ std::string check_fragments(const std::filesystem::path& path, const std::string
           check_rle(read_bytes(path, fragments[n].offset, fragments[n].size), size);
       if (!problem.empty()) return "its pixel data are damaged: they hold " + problem;
     }
-  } else if (std::string_view(transfer_syntax).substr(0, kJpegFamily.size()) == kJpegFamily &&
-             std::string_view(transfer_syntax).substr(kJpegFamily.size(), 2) != "10") {
-    // 4.10x are MPEG streams, which begin in other ways and are refused by the decoder.
-    if (!begins_like_jpeg(read_bytes(path, fragments[0].offset,
-                                     std::min<std::uint64_t>(fragments[0].size, 12)))) {
-      return "its pixel data are damaged: they do not begin like JPEG";
-    }
+  } else if (!begins_like_jpeg(read_bytes(path, fragments[0].offset,
+                                          std::min<std::uint64_t>(fragments[0].size, 12)))) {
+    return "its pixel data are damaged: they do not begin like JPEG";
   }
   return {};
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <system_error>
 
+#include <vtkDICOMDictionary.h>
 #include <vtkDICOMMetaData.h>
 #include <vtkDICOMParser.h>
 #include <vtkDICOMUtilities.h>
@@ -13,6 +14,7 @@
 #include <vtkSmartPointer.h>
 
 #include "byte_source.hpp"
+#include "dicom_elements.hpp"
 #include "error.hpp"
 #include "text.hpp"
 #include "vtk_messages.hpp"
@@ -38,10 +40,24 @@ const vtkDICOMTag kRows(0x0028, 0x0010);
 const vtkDICOMTag kColumns(0x0028, 0x0011);
 const vtkDICOMTag kPixelSpacing(0x0028, 0x0030);
 const vtkDICOMTag kBitsAllocated(0x0028, 0x0100);
+const vtkDICOMTag kBitsStored(0x0028, 0x0101);
+const vtkDICOMTag kHighBit(0x0028, 0x0102);
 const vtkDICOMTag kPixelRepresentation(0x0028, 0x0103);
 const vtkDICOMTag kIntercept(0x0028, 0x1052);
 const vtkDICOMTag kSlope(0x0028, 0x1053);
 const vtkDICOMTag kFunctionalGroups(0x5200, 0x9230);
+
+// Implicit and explicit, little- and big-endian; RLE; JPEG, JPEG-LS and JPEG 2000 for one image.
+bool is_read(std::string_view transfer_syntax) {
+  constexpr std::string_view kRoot = "1.2.840.10008.1.2";
+  if (transfer_syntax.substr(0, kRoot.size()) != kRoot) return false;
+  transfer_syntax.remove_prefix(kRoot.size());
+  for (const std::string_view end : {"", ".1", ".2", ".5", ".4.50", ".4.51", ".4.57", ".4.70",
+                                     ".4.80", ".4.81", ".4.90", ".4.91"}) {
+    if (transfer_syntax == end) return true;
+  }
+  return false;
+}
 
 constexpr const char* kDeflated = "1.2.840.10008.1.2.1.99";
 constexpr unsigned int kEncapsulated = 0xffffffff;
@@ -139,6 +155,10 @@ class Parser {
       return "has " + std::to_string(file.rows) + " rows and " + std::to_string(file.columns) +
              " columns; expected positive numbers";
     }
+    if (!file.transfer_syntax.empty() && !is_read(file.transfer_syntax)) {
+      return "has transfer syntax " + in_quotes(file.transfer_syntax) +
+             ", which is not read; expected uncompressed, RLE, JPEG, JPEG-LS or JPEG 2000 images";
+    }
     const std::int64_t components = integer(kSamplesPerPixel, 1);
     const std::string photometric = text(kPhotometric);
     if (components != 1) {
@@ -158,6 +178,12 @@ class Parser {
       file.type = with_sign ? StoredType::int32 : StoredType::uint32;
     } else {
       return "has " + std::to_string(bits) + " bits allocated a sample; expected 8, 16 or 32";
+    }
+    const std::int64_t stored = integer(kBitsStored, bits);
+    const std::int64_t high = integer(kHighBit, stored - 1);
+    if (stored < 1 || stored > bits || high != stored - 1) {
+      return "stores " + std::to_string(stored) + " bits up to bit " + std::to_string(high) +
+             " of " + std::to_string(bits) + "; expected the lowest ones";
     }
     const std::int64_t frames = integer(kFrames, 1);
     constexpr std::int64_t kMostFrames = 1000000;
@@ -262,11 +288,23 @@ Claim dicom_claim(const std::filesystem::path& path) {
   return vtkDICOMUtilities::IsDICOMFile(path.c_str()) ? Claim::perhaps : Claim::none;
 }
 
+std::optional<bool> is_sequence(std::uint32_t tag) {
+  const vtkDICOMDictEntry entry = vtkDICOMDictionary::FindDictEntry(vtkDICOMTag(
+      static_cast<unsigned short>(tag >> 16), static_cast<unsigned short>(tag & 0xffffU)));
+  if (!entry.IsValid()) return std::nullopt;
+  return entry.GetVR() == vtkDICOMVR::SQ;
+}
+
 void add_file(const std::filesystem::path& path, std::map<std::string, DicomSeries>& by_uid) {
   const Claim claim = dicom_claim(path);
   if (claim == Claim::none) return;
   if (claim == Claim::certain && !vtkDICOMUtilities::IsDICOMFile(path.c_str())) {
     throw FileError(path, "is not DICOM, though its name says so; damaged or cut off?");
+  }
+  if (const std::string problem = check_dicom_elements(MappedFile(path).bytes(), is_sequence);
+      !problem.empty()) {
+    if (claim == Claim::perhaps) return;
+    throw FileError(path, problem);
   }
   const Parser parser(path);
   if (parser.is_other()) return;

@@ -242,7 +242,7 @@ std::string draw(const std::vector<SceneMesh>& meshes, const PictureOptions& opt
     vtkOpenGLRenderer::SafeDownCast(renderer)->SetPass(occlusion);
   } else {
     renderer->SetUseDepthPeeling(1);
-    renderer->SetMaximumNumberOfPeels(16);
+    renderer->SetMaximumNumberOfPeels(10);
     renderer->SetOcclusionRatio(0.0);
   }
   window->Render();

@@ -1,23 +1,14 @@
 #include <algorithm>
-#include <cstring>
-#include <exception>
 #include <set>
 #include <utility>
 
-#include <vtkDICOMReader.h>
-#include <vtkDataArray.h>
-#include <vtkImageData.h>
-#include <vtkPointData.h>
-#include <vtkSmartPointer.h>
-#include <vtkStringArray.h>
-
+#include "dicom_pixels.hpp"
 #include "dicom_series.hpp"
 #include "error.hpp"
 #include "memory_limit.hpp"
 #include "payload.hpp"
 #include "text.hpp"
 #include "volume_formats.hpp"
-#include "vtk_messages.hpp"
 
 namespace shape3d::apps {
 namespace {
@@ -88,31 +79,6 @@ void check_files(const std::vector<DicomFile>& files) {
   }
 }
 
-// Frames of all files, in the order of the files, as VTK reads them.
-vtkSmartPointer<vtkImageData> read_with_vtk(const std::vector<DicomFile>& files,
-                                            const std::filesystem::path& path) {
-  const VtkMessages messages;
-  const auto names = vtkSmartPointer<vtkStringArray>::New();
-  for (const DicomFile& file : files) names->InsertNextValue(file.path.string());
-  const auto reader = vtkSmartPointer<vtkDICOMReader>::New();
-  reader->SetFileNames(names);
-  reader->SortingOff();
-  reader->AutoRescaleOff();
-  reader->AutoYBRToRGBOff();
-  reader->SetMemoryRowOrderToFileNative();
-  try {
-    reader->Update();
-  } catch (const std::exception& error) {
-    throw FileError(path, std::string("cannot be read: ") + error.what());
-  }
-  const std::string error =
-      messages.first_error().empty() ? messages.first_warning() : messages.first_error();
-  if (!error.empty()) throw FileError(path, "cannot be read: " + error);
-  if (reader->GetErrorCode() != 0)
-    throw FileError(path, "cannot be read: its pixel data are damaged");
-  return reader->GetOutput();
-}
-
 }  // namespace
 
 Volume read_dicom(const std::filesystem::path& path, const std::string& series,
@@ -138,28 +104,12 @@ Volume read_dicom(const std::filesystem::path& path, const std::string& series,
   header.warnings.insert(header.warnings.end(), stack.warnings.begin(), stack.warnings.end());
 
   const std::uint64_t bytes = payload_bytes(header);
+  // VTK's image and its copy.
   require_memory(path, 2 * bytes, memory_limit,
                  "reading " + samples_text(header.dims, header.type));
-  vtkSmartPointer<vtkImageData> image = read_with_vtk(selection.files, path);
-  vtkDataArray* array = image->GetPointData()->GetScalars();
-  const std::uint64_t found = array == nullptr
-                                  ? 0
-                                  : static_cast<std::uint64_t>(array->GetNumberOfValues()) *
-                                        static_cast<std::uint64_t>(array->GetDataTypeSize());
-  if (found != bytes) {
-    throw FileError(path, "gave " + std::to_string(found) + " bytes of pixels; expected " +
-                              std::to_string(bytes) + " for " +
-                              samples_text(header.dims, header.type));
-  }
-  std::vector<std::byte> data(bytes);
-  const std::size_t slice = bytes / places.size();
-  const auto* pixels = static_cast<const std::byte*>(array->GetVoidPointer(0));
+  std::vector<std::byte> data = read_dicom_pixels(selection.files, stack.order, path, bytes);
   std::vector<Scale> ordered_scales;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    std::memcpy(data.data() + k * slice, pixels + stack.order[k] * slice, slice);
-    ordered_scales.push_back(scales[stack.order[k]]);
-  }
-  image = nullptr;
+  for (const std::size_t slice : stack.order) ordered_scales.push_back(scales[slice]);
   TypedSamples samples =
       convert_samples(std::move(data), header.type, ordered_scales, path, memory_limit);
   return make_volume(std::move(header), std::move(samples));

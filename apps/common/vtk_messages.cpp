@@ -5,6 +5,7 @@
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
 
+#include <algorithm>
 #include <iostream>
 #include <sstream>
 
@@ -89,5 +90,16 @@ VtkMessages::~VtkMessages() {
 std::string VtkMessages::first_error() const { return state_->window->error; }
 
 std::string VtkMessages::first_warning() const { return state_->window->warning; }
+
+std::string VtkMessages::first_gdcm_error() const {
+  // "Error: In file, line n, function f\ntext\n\n"
+  const std::string printed = state_->sink.str();
+  std::size_t at = printed.find("Error: In ");
+  if (at == std::string::npos) return {};
+  at = std::min(printed.find('\n', at), printed.size());
+  const std::size_t end = printed.find("\n\n", at);
+  const std::string text = plain(printed.substr(at, end == std::string::npos ? end : end - at));
+  return text.empty() ? "an error without a text" : text;
+}
 
 }  // namespace shape3d::apps

@@ -19,6 +19,9 @@ class VtkMessages {
   [[nodiscard]] std::string first_error() const;
   /// The first warning so far, likewise.
   [[nodiscard]] std::string first_warning() const;
+  /// The first error that GDCM printed. VTK's DICOM reader does not look whether it could
+  /// decompress.
+  [[nodiscard]] std::string first_gdcm_error() const;
 
  private:
   class Window;

@@ -95,7 +95,7 @@ void compare(const CompareArguments& arguments, const Settings& settings) {
       rows.push_back(to_json(row));
       table += to_line(row);
     } catch (const std::invalid_argument& error) {
-      throw FileError(arguments.volume.path, error.what());
+      fail_for(arguments.volume.path, error);
     }
   }
   progress.clear();

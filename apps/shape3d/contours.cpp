@@ -56,7 +56,7 @@ void draw_contours(const ContourArguments& arguments, const Settings& settings) 
     contour = zmc::contour(volume.view, arguments.isovalue, axis, arguments.slice,
                            to_options(arguments.volume, settings));
   } catch (const std::invalid_argument& error) {
-    throw FileError(arguments.volume.path, error.what());
+    fail_for(arguments.volume.path, error);
   }
   const std::vector<Polyline> lines = join_edges(contour);
   const double contour_seconds = watch.lap();

@@ -65,6 +65,8 @@ class Extraction {
     if (format_ == MeshFormat::vtp && arguments_.isovalues.size() > 1) write_collection(*files[0]);
     if (picture_) draw();
     finish_report();
+    // All are whole before the first gets its name.
+    if (json_) json_->finish();
     for (const auto& file : files) file->commit();
     if (picture_) picture_->commit();
     if (json_) json_->commit();
@@ -136,7 +138,7 @@ class Extraction {
         if (status != zmc::Status::too_many_vertices) return status;
       }
     } catch (const std::invalid_argument& error) {
-      throw FileError(arguments_.volume.path, error.what());
+      fail_for(arguments_.volume.path, error);
     } catch (const std::bad_alloc&) {
       // told below
     }

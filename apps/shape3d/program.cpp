@@ -20,6 +20,12 @@ int fail(const std::string& sentence, int status) {
   return status;
 }
 
+bool has_command(const CLI::App& app, const std::string& name) {
+  const auto commands =
+      app.get_subcommands([&name](const CLI::App* command) { return command->get_name() == name; });
+  return !commands.empty();
+}
+
 void add_shared_options(CLI::App& app, Settings& settings) {
   app.add_flag("-q,--quiet", settings.quiet, "No report, no warnings, no progress; errors only");
   app.add_option("--threads", settings.threads,
@@ -60,6 +66,11 @@ int run_program(int argc, char** argv) {
   add_compare(app, settings);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
     add_shared_options(*command, settings);
+  if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
+    return fail(std::string("unknown command '") + argv[1] +
+                    "', expected info, extract, contours, check, render or compare",
+                kUsage);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -32,7 +32,7 @@ using Json = nlohmann::ordered_json;
 /// With a sensible number of digits: "657 705.6", "0.0123".
 [[nodiscard]] std::string rounded(double number);
 
-/// Writes the report to settings.json, if that is not empty.
+/// Writes the report to settings.json, if that is not empty, and gives it its name.
 /// @throws FileError
 void write_json(const Settings& settings, const Json& report);
 

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/error.hpp"
 #include "common/text.hpp"
 #include "common/volume_io.hpp"
 
@@ -108,6 +109,14 @@ Volume read_volume_of(const VolumeArguments& arguments, const Settings& settings
   Volume volume = read_volume(arguments.path, options);
   for (const std::string& sentence : volume.warnings) warn(settings, sentence);
   return volume;
+}
+
+void fail_for(const std::string& path, const std::invalid_argument& error) {
+  std::string sentence = error.what();
+  const std::string name = "NonFinite::mask";
+  if (const std::size_t at = sentence.find(name); at != std::string::npos)
+    sentence.replace(at, name.size(), "--non-finite mask");
+  throw FileError(path, sentence);
 }
 
 std::optional<std::array<double, 2>> range_of(const zmc::VolumeView& view) {

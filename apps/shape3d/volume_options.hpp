@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include <shape3d/zmc/options.hpp>
@@ -31,6 +32,9 @@ void add_space_option(CLI::App& command, std::string& space);
 /// Reads the volume; its warnings go to standard error.
 [[nodiscard]] Volume read_volume_of(const VolumeArguments& arguments, const Settings& settings,
                                     Progress& progress);
+
+/// What the library found wrong with a volume, as an error of its file in words of the command line.
+[[noreturn]] void fail_for(const std::string& path, const std::invalid_argument& error);
 
 /// Least and greatest finite sample; empty when there is none.
 [[nodiscard]] std::optional<std::array<double, 2>> range_of(const zmc::VolumeView& view);

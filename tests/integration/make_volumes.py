@@ -835,6 +835,7 @@ def dicom(folder):
     all_changed("rgb", "holds 3 components a voxel", SamplesPerPixel=3, PhotometricInterpretation="RGB")
     all_changed("palette", "\"PALETTE COLOR\"", PhotometricInterpretation="PALETTE COLOR")
     all_changed("bits", "has 12 bits allocated", BitsAllocated=12)
+    all_changed("high_bit", "stores 12 bits up to bit 15 of 16", BitsStored=12, HighBit=15)
     all_changed("slope0", "slope 0 and intercept 0", RescaleSlope="0", RescaleIntercept="0")
     all_changed("few_pixels", "holds 30 bytes of pixel data", "expected 40", PixelData=b"\0" * 30)
     all_changed("zero_rows", "has 0 rows", Rows=0)
@@ -874,6 +875,43 @@ def dicom(folder):
     damaged_rle("rle_inside", lambda f: patch(f, 4, "<I", 8), "an RLE segment from byte 8")
     damaged_rle("rle_short", lambda f: f[:-10], "an RLE segment of ", "expected 20")
     damaged_rle("rle_tiny", lambda f: f[:20], "an RLE frame of 20 bytes")
+    # JPEG that begins well and goes on with noise: its decoder crashes or complains.
+    from pydicom.encaps import encapsulate
+    noise = np.random.default_rng(3).integers(0, 256, 500, dtype="uint8").tobytes()
+    for syntax, begin in [("1.2.840.10008.1.2.4.70", b"\xff\xd8\xff\xc3"), ("1.2.840.10008.1.2.4.80", b"\xff\xd8\xff\xf7"),
+                          ("1.2.840.10008.1.2.4.90", b"\xff\x4f\xff\x51")]:
+        def make_noise(data):
+            data.file_meta.TransferSyntaxUID = syntax
+            data.PixelData = encapsulate([begin + noise])
+            data["PixelData"].is_undefined_length = True
+        series(f"noise{syntax}", change=make_noise)
+        folder.expect_error(f"noise{syntax}", "its pixel data cannot be read")
+    # JPEG 2000, where the encoder is installed.
+    try:
+        import io
+        from PIL import Image, features
+        if features.check("jpg_2000"):
+            pixels = (np.arange(3 * 48 * 64).reshape(3, 48, 64) * 7 % 4000).astype("uint16")
+            def jpeg_2000(data, n):
+                code = io.BytesIO()
+                Image.fromarray(pixels[n]).save(code, format="JPEG2000", irreversible=False, no_jp2=True)
+                data.file_meta.TransferSyntaxUID = "1.2.840.10008.1.2.4.90"
+                data.PixelData = encapsulate([code.getvalue()])
+                data["PixelData"].is_undefined_length = True
+            for n in range(3):
+                write_slice("j2k", f"{n}.dcm", 0, n, OBLIQUE, pixels[n], 1, -1024,
+                            change=lambda data, n=n: jpeg_2000(data, n))
+            folder.expect("j2k", "DICOM series", pixels.transpose(2, 1, 0) - 1024.0, "int16", OBLIQUE)
+    except ImportError:
+        pass
+    # A transfer syntax nobody knows, and films.
+    for syntax in ["1.2.3", "1.2.840.10008.1.2.4.100"]:
+        series(f"syntax{syntax}", syntax=RLELossless)
+        for n in range(6):
+            data = pydicom.dcmread(folder / f"syntax{syntax}/{n:02d}.dcm")
+            data.file_meta.TransferSyntaxUID = syntax
+            data.save_as(folder / f"syntax{syntax}/{n:02d}.dcm", write_like_original=False)
+        folder.expect_error(f"syntax{syntax}", f"has transfer syntax \"{syntax}\", which is not read")
     # RLE that calls itself JPEG 2000.
     series("not_jpeg", syntax=RLELossless)
     for n in range(6):

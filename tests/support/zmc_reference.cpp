@@ -21,7 +21,7 @@ class Extractor {
 
   Result run() {
     solve_cells();
-    sign_zero_regions();
+    if (options_.sign_all_zero_cells) sign_zero_regions();
     for (int axis = 0; axis < 3; ++axis) insert_faces(axis);
     std::sort(result_.surface.patches.begin(), result_.surface.patches.end());
     std::sort(result_.surface.zero_faces.begin(), result_.surface.zero_faces.end());
@@ -163,6 +163,7 @@ class Extractor {
         return;
       }
       const int below_sign = sign_at(low, up), above_sign = sign_at(high, down);
+      if (!options_.sign_all_zero_cells && below_sign * above_sign == 0) return;
       if (below_sign == above_sign) {
         const bool both_zero = low.kind == CellKind::all_zero && high.kind == CellKind::all_zero;
         if (!options_.mating || !quad || both_zero) return;

@@ -76,6 +76,9 @@ struct Options {
   /// Keep the faces of case 12 between cells of one sign too, other than between two cells of eight
   /// zeros.
   bool mating = false;
+  /// False: all-zero cells have no sign and no zero face is inserted beside them, to show what
+  /// their sign is needed for.
+  bool sign_all_zero_cells = true;
 };
 
 struct Result {

@@ -52,7 +52,7 @@ class Classifier {
   [[nodiscard]] std::int64_t not_finite() const { return not_finite_.load(); }
   void forget_not_finite() { not_finite_ = 0; }
 
-  [[noreturn]] void report_not_finite() const {
+  [[noreturn]] void report_not_finite(std::int64_t first_plane) const {
     if constexpr (std::is_floating_point_v<T>) {
       for (std::int64_t k = 0; k < view_.dims[2]; ++k) {
         for (std::int64_t j = 0; j < view_.dims[1]; ++j) {
@@ -61,7 +61,7 @@ class Classifier {
             if (std::isfinite(value)) continue;
             std::ostringstream text;
             text << "samples: expected finite values, got " << value << " at (" << i << ", " << j
-                 << ", " << k << "), the first of " << not_finite()
+                 << ", " << first_plane + k << "), the first of " << not_finite()
                  << "; NonFinite::mask skips the cells that touch one";
             throw std::invalid_argument(text.str());
           }
@@ -190,7 +190,7 @@ void resize(SignLattice& lattice, const VolumeView& view, const Options& options
 }  // namespace
 
 bool classify(const VolumeView& view, const std::vector<Classification>& targets,
-              const Options& options, const LayerLoop& for_layers) {
+              const Options& options, const LayerLoop& for_layers, std::int64_t first_plane) {
   for (const Classification& target : targets) resize(*target.lattice, view, options);
   const std::int64_t layers = targets[0].lattice->nz;
   return visit_sample_type(view.type, [&](auto sample) {
@@ -200,7 +200,7 @@ bool classify(const VolumeView& view, const std::vector<Classification>& targets
     };
     if (!for_layers(layers, body)) return false;
     if (classifier.not_finite() == 0) return true;
-    if (options.non_finite == NonFinite::error) classifier.report_not_finite();
+    if (options.non_finite == NonFinite::error) classifier.report_not_finite(first_plane);
     for (const Classification& target : targets) {
       target.lattice->masked = true;
       target.lattice->cell_bits.resize(target.lattice->n_bits.size());

@@ -28,7 +28,8 @@ class ContourBuilder {
         axis_(axis),
         magnitude_(view, isovalue, false),
         geometry_(view, false) {
-    detail::classify(view, {{isovalue, &lattice_}}, options, detail::layer_loop(options, 0.0, 1.0));
+    detail::classify(view, {{isovalue, &lattice_}}, options,
+                     detail::layer_loop(options, detail::sample_count(view), 0.0, 1.0));
     const detail::LatticeCells cells(lattice_, magnitude_, options.ties);
     regions_.solve(cells);
 

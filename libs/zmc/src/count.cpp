@@ -23,14 +23,20 @@ class Counter {
 
   /// Crossings, patches and inserted faces of layers [first, last).
   void count_layers(std::int64_t first, std::int64_t last) {
-    Tally tally;
+    Tally tally, elsewhere;
     for (std::int64_t k = first; k < last; ++k) {
       LayerPlan& layer = plan_.layers[static_cast<std::size_t>(k)];
       layer = LayerPlan{};
-      for (std::int64_t j = 0; j < lattice_.ny; ++j) count_row(j, k, layer, tally);
+      Tally& counted = in_part(k) ? tally : elsewhere;
+      for (std::int64_t j = 0; j < lattice_.ny; ++j) count_row(j, k, layer, counted);
       find_inserted_faces(cells_, regions_, options_.zero_faces, k, layer.quads, layer.closing);
       for (const auto* faces : {&layer.quads, &layer.closing}) {
         for (const InsertedFace& face : *faces) use_vertices(face, k, layer);
+      }
+      if (options_.triangulation == Triangulation::centroid) {
+        for (const InsertedFace& face : layer.quads) {
+          ++plan_.rows[static_cast<std::size_t>(lattice_.row(face.j, k))].first_vertex;
+        }
       }
     }
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -49,7 +55,7 @@ class Counter {
           used += static_cast<std::uint32_t>(__builtin_popcountll(crossings_.used_zeros(j, k, w)));
         }
         plan_.rows[static_cast<std::size_t>(row)].first_vertex += used;
-        total += used;
+        if (in_part(k)) total += used;
       }
     }
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -61,6 +67,7 @@ class Counter {
     std::int64_t total = 0;
     std::vector<std::uint64_t> edges;
     for (std::int64_t k = first; k < last; ++k) {
+      if (!in_part(k)) continue;
       edges = plan_.layers[static_cast<std::size_t>(k)].lower_edges;
       if (k > 0) {
         const auto& below = plan_.layers[static_cast<std::size_t>(k - 1)].upper_edges;
@@ -108,29 +115,41 @@ class Counter {
       const std::int64_t others = r.first_vertex, own_triangles = r.first_triangle;
       r.first_vertex = static_cast<std::uint32_t>(vertices - plan_.group_vertex.back());
       r.first_triangle = static_cast<std::uint32_t>(triangles - plan_.group_triangle.back());
-      counts.centroids += others;
+      if (in_part(static_cast<std::int64_t>(row) / lattice_.ny)) counts.centroids += others;
       vertices += others + r.x + r.y + r.z;
       triangles += own_triangles;
     }
     counts.centroids -= counts.zero_vertices;
-    plan_.row_vertices = vertices;
-    plan_.patch_triangles = triangles;
-    for (LayerPlan& layer : plan_.layers) {
+    const auto before = [&](std::int64_t plane, auto first_of, std::int64_t all) {
+      return plane < lattice_.nz ? (plan_.*first_of)(lattice_.row(0, plane)) : all;
+    };
+    plan_.part_vertex = before(plan_.part.first, &Plan::first_vertex, vertices);
+    plan_.part_triangle = before(plan_.part.first, &Plan::first_triangle, triangles);
+    plan_.vertices = before(plan_.part.last, &Plan::first_vertex, vertices) - plan_.part_vertex;
+    plan_.patch_triangles =
+        before(plan_.part.last, &Plan::first_triangle, triangles) - plan_.part_triangle;
+    for (std::int64_t k = plan_.part.first; k < plan_.part.last; ++k) {
+      LayerPlan& layer = plan_.layers[static_cast<std::size_t>(k)];
       layer.first_quad = counts.zero_faces;
       layer.first_closing = counts.closing_triangles;
       counts.zero_faces += static_cast<std::int64_t>(layer.quads.size());
       counts.closing_triangles += static_cast<std::int64_t>(layer.closing.size());
     }
-    if (options_.triangulation == Triangulation::centroid) counts.centroids += counts.zero_faces;
     if (lattice_.masked) {
-      const std::int64_t all = (lattice_.nx - 1) * (lattice_.ny - 1) * (lattice_.nz - 1);
+      const std::int64_t layers = std::min(plan_.part.last, lattice_.nz - 1) - plan_.part.first;
+      const std::int64_t all = (lattice_.nx - 1) * (lattice_.ny - 1) * layers;
       std::int64_t valid = 0;
-      for (const Word word : lattice_.cell_bits) valid += __builtin_popcountll(word);
+      for (std::int64_t w = lattice_.row(0, plan_.part.first) * lattice_.words;
+           w < lattice_.row(0, plan_.part.first + layers) * lattice_.words; ++w) {
+        valid += __builtin_popcountll(lattice_.cell_bits[static_cast<std::size_t>(w)]);
+      }
       counts.masked_cells = all - valid;
     }
   }
 
  private:
+  bool in_part(std::int64_t k) const { return k >= plan_.part.first && k < plan_.part.last; }
+
   void count_row(std::int64_t j, std::int64_t k, LayerPlan& layer, Tally& tally) {
     RowPlan& plan = plan_.rows[static_cast<std::size_t>(lattice_.row(j, k))];
     if (j + 1 < lattice_.ny && k + 1 < lattice_.nz) {
@@ -170,7 +189,9 @@ class Counter {
 }  // namespace
 
 bool make_plan(SignLattice& lattice, const LatticeCells& cells, const ZeroRegions& regions,
-               const Options& options, const LayerLoop& for_layers, Plan& plan) {
+               const Options& options, const Plan::Part& part, const LayerLoop& for_layers,
+               Plan& plan) {
+  plan.part = part;
   plan.rows.resize(static_cast<std::size_t>(lattice.rows()));
   plan.layers.resize(static_cast<std::size_t>(lattice.nz));
   plan.group_vertex.clear();

@@ -23,6 +23,7 @@ Surface<double, std::int32_t> extract(const VolumeView& view, double isovalue,
   switch (extract(view, isovalue, options, surface)) {
     case Status::ok:
     case Status::empty:
+    case Status::zero_region_at_seam:  // only of stream()
       break;
     case Status::too_many_vertices:
       throw std::length_error(

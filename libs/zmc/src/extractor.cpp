@@ -27,6 +27,8 @@ Status finish_empty(Surface<Real, Index>& surface, Status status) {
   surface.indices.clear();
   surface.gradients.clear();
   surface.normals.clear();
+  surface.edges.clear();
+  surface.edge_parameters.clear();
   surface.first_zero_face = surface.first_closing = 0;
   return status;
 }
@@ -49,15 +51,16 @@ Status build_surface(const VolumeView& view, double isovalue, const Options& opt
   surface.timings.zero_regions = seconds_since(clock);
 
   const double middle = from + 0.4 * (to - from);
-  if (!detail::make_plan(job.lattice, cells, job.regions, options,
-                         detail::layer_loop(options, from, middle), job.plan)) {
+  if (!detail::make_plan(job.lattice, cells, job.regions, options, {0, job.lattice.nz},
+                         detail::layer_loop(options, detail::sample_count(view), from, middle),
+                         job.plan)) {
     return finish_empty(surface, Status::cancelled);
   }
   surface.counts = job.plan.counts;
   surface.timings.count = seconds_since(clock);
 
   const bool centred = options.triangulation == Triangulation::centroid;
-  const std::int64_t vertices = job.plan.row_vertices + (centred ? job.plan.counts.zero_faces : 0);
+  const std::int64_t vertices = job.plan.vertices;
   constexpr std::int64_t kMost = std::numeric_limits<Index>::max();
   if (vertices > (options.max_vertices > 0 ? std::min(options.max_vertices, kMost) : kMost)) {
     return finish_empty(surface, Status::too_many_vertices);
@@ -70,8 +73,14 @@ Status build_surface(const VolumeView& view, double isovalue, const Options& opt
   surface.indices.resize(static_cast<std::size_t>(3 * triangles));
   if (options.gradients) surface.gradients.resize(surface.positions.size());
   if (options.normals) surface.normals.resize(surface.positions.size());
-  if (!detail::generate(view, isovalue, options, cells, job.plan,
-                        detail::layer_loop(options, middle, to), surface)) {
+  if (options.edges) {
+    surface.edges.resize(static_cast<std::size_t>(vertices));
+    surface.edge_parameters.resize(static_cast<std::size_t>(vertices));
+  }
+  const detail::Geometry geometry(view, options.border == Border::capped);
+  if (!detail::generate(view, isovalue, options, geometry, cells, job.plan,
+                        detail::layer_loop(options, detail::sample_count(view), middle, to),
+                        surface)) {
     return finish_empty(surface, Status::cancelled);
   }
   surface.timings.generate = seconds_since(clock);
@@ -105,8 +114,9 @@ Status Extractor::extract(const VolumeView& view, double isovalue, const Options
   if (workspace_->jobs.empty()) workspace_->jobs.resize(1);
   Job& job = workspace_->jobs[0];
   constexpr double kClassified = 0.2;
-  if (!detail::classify(view, {{isovalue, &job.lattice}}, options,
-                        detail::layer_loop(options, 0.0, kClassified))) {
+  if (!detail::classify(
+          view, {{isovalue, &job.lattice}}, options,
+          detail::layer_loop(options, detail::sample_count(view), 0.0, kClassified))) {
     return Status::cancelled;
   }
   surface.timings.classify = seconds_since(clock);
@@ -129,7 +139,8 @@ std::vector<Status> Extractor::extract(const VolumeView& view, const std::vector
     targets.push_back({isovalues[n], &jobs[n].lattice});
   constexpr double kClassified = 0.1;
   std::vector<Status> statuses(isovalues.size(), Status::cancelled);
-  if (!detail::classify(view, targets, options, detail::layer_loop(options, 0.0, kClassified)))
+  if (!detail::classify(view, targets, options,
+                        detail::layer_loop(options, detail::sample_count(view), 0.0, kClassified)))
     return statuses;
   surfaces[0].timings.classify = seconds_since(clock);
   const double share = (1.0 - kClassified) / static_cast<double>(isovalues.size());

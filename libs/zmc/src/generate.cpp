@@ -15,19 +15,21 @@ VertexArrays<Real> arrays_of(Surface<Real, Index>& surface) {
   const auto array = [](detail::Buffer<Real>& buffer) {
     return buffer.empty() ? nullptr : buffer.data();
   };
-  return {array(surface.positions), array(surface.gradients), array(surface.normals)};
+  return {array(surface.positions), array(surface.gradients), array(surface.normals),
+          surface.edges.empty() ? nullptr : surface.edges.data(), array(surface.edge_parameters)};
 }
 
 template <class Real, class Index>
 class Generator final : public CentroidSink {
  public:
   Generator(const VolumeView& view, double isovalue, const Options& options,
-            const LatticeCells& cells, const Plan& plan, Surface<Real, Index>& surface)
+            const Geometry& geometry, const LatticeCells& cells, const Plan& plan,
+            Surface<Real, Index>& surface)
       : cells_(cells),
         lattice_(cells.lattice()),
         crossings_(cells.lattice()),
         plan_(plan),
-        geometry_(view, options.border == Border::capped),
+        geometry_(geometry),
         magnitude_(view, isovalue, options.border == Border::capped),
         options_(options),
         surface_(surface),
@@ -48,6 +50,7 @@ class Generator final : public CentroidSink {
   /// Sums in the order of the vertices' ids.
   void put(std::int64_t id, std::uint32_t members, std::int64_t i, std::int64_t j,
            std::int64_t k) const override {
+    const std::int64_t place_in_part = id - plan_.first_id;
     Eigen::Vector3d place = Eigen::Vector3d::Zero(), gradient = place, normal = place;
     int count = 0;
     for (; members != 0; members &= members - 1, ++count) {
@@ -59,12 +62,16 @@ class Generator final : public CentroidSink {
       normal += a.normal;
     }
     for (int d = 0; d < 3; ++d) {
-      arrays_.positions[3 * id + d] = static_cast<Real>(place[d] / count);
+      arrays_.positions[3 * place_in_part + d] = static_cast<Real>(place[d] / count);
+    }
+    if (arrays_.edges != nullptr) {
+      arrays_.edges[place_in_part] = -1;
+      arrays_.edge_parameters[place_in_part] = Real{0};
     }
     if (arrays_.with_attributes()) {
       const double length = normal.norm();
       if (length > 0.0) normal /= length;
-      arrays_.put(id, {gradient / count, normal});
+      arrays_.put(place_in_part, {gradient / count, normal});
     }
   }
 
@@ -76,8 +83,8 @@ class Generator final : public CentroidSink {
     const std::int64_t per_quad = centred ? 4 : 2;
     Index* out =
         surface_.indices.data() + 3 * (surface_.first_zero_face + per_quad * layer.first_quad);
-    std::int64_t centre = plan_.row_vertices + layer.first_quad;
-    for (const InsertedFace& face : layer.quads) {
+    for (std::size_t q = 0; q < layer.quads.size(); ++q) {
+      const InsertedFace& face = layer.quads[q];
       const FacePolygon polygon = face_polygon(lattice_, face, k);
       std::array<Index, 4> id{};
       std::uint32_t members = 0;
@@ -86,17 +93,16 @@ class Generator final : public CentroidSink {
         members |= std::uint32_t{1} << kVertexSlot[polygon.vertices[n]];
       }
       if (centred) {
-        put(centre, members, face.i, face.j, k);
+        const auto centre = static_cast<Index>(centre_id(layer, q, k));
+        put(static_cast<std::int64_t>(centre), members, face.i, face.j, k);
         // In an order that does not depend on the direction of the polygon.
         const bool reversed = id[1] > id[3];
         for (int n = 0; n < 4; ++n) {
           const int a = reversed ? (4 - n) % 4 : n, b = reversed ? 3 - n : (n + 1) % 4;
           const Index low = std::min(id[a], id[b]), high = std::max(id[a], id[b]);
           const bool along = (id[a] < id[b]) != reversed;
-          put_triangle(out, low, along ? high : static_cast<Index>(centre),
-                       along ? static_cast<Index>(centre) : high);
+          put_triangle(out, low, along ? high : centre, along ? centre : high);
         }
-        ++centre;
       } else {
         // Along the diagonal from the lowest corner; the half with the lower second corner first.
         const bool reversed = id[1] > id[3];
@@ -115,6 +121,15 @@ class Generator final : public CentroidSink {
     }
   }
 
+  /// Id of the centre of a layer's quad: they end the vertices of the row of their cell.
+  std::int64_t centre_id(const LayerPlan& layer, std::size_t quad, std::int64_t k) const {
+    const std::int32_t j = layer.quads[quad].j;
+    std::size_t end = quad;
+    while (end < layer.quads.size() && layer.quads[end].j == j) ++end;
+    const std::int64_t next_row = lattice_.row(j, k) + 1;  // there is one: cells end before rows do
+    return plan_.first_row_id(next_row) - static_cast<std::int64_t>(end - quad);
+  }
+
   void put_triangle(Index*& out, Index a, Index b, Index c) const {
     out[0] = a;
     out[1] = geometry_.mirrored() ? c : b;
@@ -128,7 +143,7 @@ class Generator final : public CentroidSink {
     i += low[0], j += low[1], k += low[2];
     const std::int64_t row = lattice_.row(j, k);
     const RowPlan& p = plan_.rows[static_cast<std::size_t>(row)];
-    std::int64_t id = plan_.first_vertex(row);
+    std::int64_t id = plan_.first_row_id(row);
     const int kind = vertex >= 12 ? 3 : Geometry::edge_axis(vertex);
     if (kind > 0) id += p.x;
     if (kind > 1) id += p.y;
@@ -147,7 +162,7 @@ class Generator final : public CentroidSink {
   const SignLattice& lattice_;
   Crossings crossings_;
   const Plan& plan_;
-  Geometry geometry_;
+  const Geometry& geometry_;
   AnyMagnitudeReader magnitude_;
   const Options& options_;
   Surface<Real, Index>& surface_;
@@ -160,26 +175,32 @@ class Generator final : public CentroidSink {
 
 template <class Real, class Index>
 bool generate(const VolumeView& view, double isovalue, const Options& options,
-              const LatticeCells& cells, const Plan& plan, const LayerLoop& for_layers,
-              Surface<Real, Index>& surface) {
+              const Geometry& geometry, const LatticeCells& cells, const Plan& plan,
+              const LayerLoop& for_layers, Surface<Real, Index>& surface) {
   const SignLattice& lattice = cells.lattice();
-  Generator<Real, Index> generator(view, isovalue, options, cells, plan, surface);
-  return for_layers(lattice.nz, [&](std::int64_t first, std::int64_t last) {
-    VertexWriter<Real> vertices(view, isovalue, options, lattice, plan, arrays_of(surface));
-    for (std::int64_t k = first; k < last; ++k) {
+  Generator<Real, Index> generator(view, isovalue, options, geometry, cells, plan, surface);
+  const Plan::Part part = plan.part;
+  return for_layers(part.last - part.first, [&](std::int64_t first, std::int64_t last) {
+    VertexWriter<Real> vertices(view, isovalue, options, geometry, lattice, plan,
+                                arrays_of(surface));
+    for (std::int64_t k = part.first + first; k < part.first + last; ++k) {
       for (std::int64_t j = 0; j < lattice.ny; ++j) vertices.write_row(j, k);
     }
-    generator.layers(first, last);
+    generator.layers(part.first + first, part.first + last);
   });
 }
 
-template bool generate(const VolumeView&, double, const Options&, const LatticeCells&, const Plan&,
-                       const LayerLoop&, Surface<float, std::int32_t>&);
-template bool generate(const VolumeView&, double, const Options&, const LatticeCells&, const Plan&,
-                       const LayerLoop&, Surface<float, std::int64_t>&);
-template bool generate(const VolumeView&, double, const Options&, const LatticeCells&, const Plan&,
-                       const LayerLoop&, Surface<double, std::int32_t>&);
-template bool generate(const VolumeView&, double, const Options&, const LatticeCells&, const Plan&,
-                       const LayerLoop&, Surface<double, std::int64_t>&);
+template bool generate(const VolumeView&, double, const Options&, const Geometry&,
+                       const LatticeCells&, const Plan&, const LayerLoop&,
+                       Surface<float, std::int32_t>&);
+template bool generate(const VolumeView&, double, const Options&, const Geometry&,
+                       const LatticeCells&, const Plan&, const LayerLoop&,
+                       Surface<float, std::int64_t>&);
+template bool generate(const VolumeView&, double, const Options&, const Geometry&,
+                       const LatticeCells&, const Plan&, const LayerLoop&,
+                       Surface<double, std::int32_t>&);
+template bool generate(const VolumeView&, double, const Options&, const Geometry&,
+                       const LatticeCells&, const Plan&, const LayerLoop&,
+                       Surface<double, std::int64_t>&);
 
 }  // namespace shape3d::zmc::detail

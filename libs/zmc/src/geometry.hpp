@@ -10,23 +10,32 @@
 namespace shape3d::zmc::detail {
 
 /// Lattice coordinates to world coordinates. With a capped border lattice indices start one sample
-/// early.
+/// early; those of a lattice that begins at a later plane of the volume, at that plane.
 class Geometry {
  public:
-  Geometry(const VolumeView& view, bool capped)
+  explicit Geometry(const VolumeView& view, bool capped = false, std::int64_t first_plane = 0)
       : origin_(view.origin),
         axes_(view.direction * view.spacing.asDiagonal()),
-        shift_(capped ? 1.0 : 0.0) {}
+        shift_(capped ? 1.0 : 0.0),
+        z_shift_(shift_ - static_cast<double>(first_plane)) {}
 
-  [[nodiscard]] Eigen::Vector3d world(double x, double y, double z) const {
-    return plane(z) + axes_.col(1) * (y - shift_) + axes_.col(0) * (x - shift_);
+  /// The place at t of the edge from lattice point (i, j, k) along an axis.
+  [[nodiscard]] Eigen::Vector3d world(std::int64_t i, std::int64_t j, std::int64_t k, int axis = 0,
+                                      double t = 0.0) const {
+    return plane(k, axis == 2 ? t : 0.0) + y_term(j, axis == 1 ? t : 0.0) +
+           x_term(i, axis == 0 ? t : 0.0);
   }
-  /// Terms of world() in their order of summation.
-  [[nodiscard]] Eigen::Vector3d plane(double z) const {
-    return origin_ + axes_.col(2) * (z - shift_);
+  /// Terms of world() in their order of summation. Indices are moved before t is added, so that a
+  /// lattice point has the same place in whatever part of the volume the lattice is.
+  [[nodiscard]] Eigen::Vector3d plane(std::int64_t k, double t = 0.0) const {
+    return origin_ + axes_.col(2) * ((static_cast<double>(k) - z_shift_) + t);
   }
-  [[nodiscard]] Eigen::Vector3d y_term(double y) const { return axes_.col(1) * (y - shift_); }
-  [[nodiscard]] Eigen::Vector3d x_term(double x) const { return axes_.col(0) * (x - shift_); }
+  [[nodiscard]] Eigen::Vector3d y_term(std::int64_t j, double t = 0.0) const {
+    return axes_.col(1) * ((static_cast<double>(j) - shift_) + t);
+  }
+  [[nodiscard]] Eigen::Vector3d x_term(std::int64_t i, double t = 0.0) const {
+    return axes_.col(0) * ((static_cast<double>(i) - shift_) + t);
+  }
 
   /// The axes form a left-handed frame, so that triangles must be turned over.
   [[nodiscard]] bool mirrored() const { return axes_.determinant() < 0.0; }
@@ -35,14 +44,11 @@ class Geometry {
   template <class Magnitude>
   [[nodiscard]] Eigen::Vector3d surface_vertex(const Magnitude& magnitude, std::int64_t i,
                                                std::int64_t j, std::int64_t k, int vertex) const {
-    Eigen::Vector3d p(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
     const auto& low = kCellVertices[vertex >= 12 ? vertex - 12 : lower_end(vertex)];
-    p += Eigen::Vector3d(low[0], low[1], low[2]);
-    if (vertex < 12) {
-      const int axis = edge_axis(vertex);
-      p[axis] += magnitude.crossing(i + low[0], j + low[1], k + low[2], axis);
-    }
-    return world(p[0], p[1], p[2]);
+    i += low[0], j += low[1], k += low[2];
+    if (vertex >= 12) return world(i, j, k);
+    const int axis = edge_axis(vertex);
+    return world(i, j, k, axis, magnitude.crossing(i, j, k, axis));
   }
 
   /// Direction of a cell edge, 0 … 2.
@@ -61,6 +67,7 @@ class Geometry {
   Eigen::Vector3d origin_;
   Eigen::Matrix3d axes_;
   double shift_;
+  double z_shift_;
 };
 
 }  // namespace shape3d::zmc::detail

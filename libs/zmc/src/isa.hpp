@@ -3,21 +3,13 @@
 // Instruction sets chosen at run time. Loops that gain from one are written once, always inlined,
 // and wrapped in one function per set; the wrapper carries the target attribute.
 
+#include "shape3d/zmc/instruction_set.hpp"
+
 namespace shape3d::zmc::detail {
 
-enum class Isa {
-  portable,  ///< What the compiler was told to assume.
-  avx2,      ///< AVX2, BMI1, BMI2, POPCNT, LZCNT.
-  avx512     ///< The same and AVX-512 F, BW, VL, DQ, VPOPCNTDQ.
-};
+using Isa = InstructionSet;
 
-/// The best set of this processor, or the one forced by set_isa().
-Isa active_isa();
-
-/// Restricts extraction to a set, for tests and measurements; unsupported sets fall back to the
-/// best below.
-/// @return the set now in use.
-Isa set_isa(Isa isa);
+inline Isa active_isa() { return active_instruction_set(); }
 
 }  // namespace shape3d::zmc::detail
 

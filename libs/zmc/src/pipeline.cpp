@@ -31,8 +31,9 @@ void check_arguments(const VolumeView& view, double isovalue, const Options& opt
   }
 }
 
-LayerLoop layer_loop(const Options& options, double from, double to) {
-  const int threads = resolve_threads(options.threads);
+LayerLoop layer_loop(const Options& options, std::int64_t samples, double from, double to) {
+  constexpr std::int64_t kWorthSharing = 1 << 12;  // below, waking threads costs more than the work
+  const int threads = samples < kWorthSharing ? 1 : resolve_threads(options.threads);
   return [&options, threads, from, to, reached = from](
              std::int64_t count,
              const std::function<void(std::int64_t, std::int64_t)>& body) mutable {

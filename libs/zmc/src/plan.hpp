@@ -12,8 +12,8 @@
 namespace shape3d::zmc::detail {
 
 /// The vertices that belong to a lattice row, in the order of their ids: crossings along x, y, z,
-/// used zero samples, centroids of the cells of the row. Triangles: those of the cells of the row,
-/// by x.
+/// used zero samples, centroids of the cells of the row, centres of their zero faces. Triangles:
+/// those of the cells of the row, by x.
 struct RowPlan {
   std::uint32_t first_vertex = 0;     ///< Relative to the row's group.
   std::uint32_t first_triangle = 0;   ///< Relative to the row's group.
@@ -30,6 +30,11 @@ struct LayerPlan {
 };
 
 struct Plan {
+  /// Planes of the lattice, and layers of cells that start at them, whose part of the surface is
+  /// wanted. The others are only there for what they say about the vertices of these.
+  struct Part {
+    std::int64_t first = 0, last = 0;
+  };
   static constexpr int kGroupShift = 6;
   /// Rows longer than this would overflow the numbers of a group.
   static constexpr std::int64_t kLongestRow = std::int64_t{1} << 22;
@@ -37,13 +42,21 @@ struct Plan {
   std::vector<RowPlan> rows;
   std::vector<std::int64_t> group_vertex, group_triangle;
   std::vector<LayerPlan> layers;
-  std::int64_t row_vertices = 0;  ///< All but the centres of zero faces, which come last.
+  std::int64_t vertices = 0;  ///< Of the part, like all counts.
   std::int64_t patch_triangles = 0;
   Counts counts;
+  Part part;
+  std::int64_t part_vertex = 0,
+               part_triangle = 0;  ///< Where the part begins in the numbers of the lattice.
+  std::int64_t first_id = 0;       ///< Id of the first vertex of the part.
 
   [[nodiscard]] std::int64_t first_vertex(std::int64_t row) const {
     return group_vertex[static_cast<std::size_t>(row >> kGroupShift)] +
            rows[static_cast<std::size_t>(row)].first_vertex;
+  }
+  /// Id of the first vertex of a row; rows beyond the part have ids beyond its own.
+  [[nodiscard]] std::int64_t first_row_id(std::int64_t row) const {
+    return first_vertex(row) - part_vertex + first_id;
   }
   [[nodiscard]] std::int64_t first_triangle(std::int64_t row) const {
     return group_triangle[static_cast<std::size_t>(row >> kGroupShift)] +

@@ -10,6 +10,9 @@ std::string_view to_string(Status status) {
       return "the isovalue separates no samples";
     case Status::too_many_vertices:
       return "too many vertices for the index type or the limit set";
+    case Status::zero_region_at_seam:
+      return "cells of eight zeros lie beside a seam between slabs, and the source cannot be read "
+             "twice";
     case Status::cancelled:
       return "cancelled by the caller";
   }

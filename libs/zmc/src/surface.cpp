@@ -32,6 +32,6 @@ void* allocate_array(std::size_t bytes) {
   return array;
 }
 
-void free_array(void* array, std::size_t /*bytes*/) noexcept { std::free(array); }
+void free_array(void* array) noexcept { std::free(array); }
 
 }  // namespace shape3d::zmc::detail

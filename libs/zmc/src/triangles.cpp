@@ -51,7 +51,7 @@ struct RunningIds {
   RunningIds(const SignLattice& lattice, const Plan& plan, const CellRow& row) {
     for (int r = 0; r < 4; ++r) {
       const RowPlan& p = plan.rows[static_cast<std::size_t>(row.row[r])];
-      const auto first = static_cast<Index>(plan.first_vertex(row.row[r]));
+      const auto first = static_cast<Index>(plan.first_row_id(row.row[r]));
       crossing[r] = first;
       if (r % 2 == 0) crossing[4 + r / 2] = first + static_cast<Index>(p.x);
       if (r < 2) crossing[6 + r] = first + static_cast<Index>(p.x) + static_cast<Index>(p.y);
@@ -266,7 +266,7 @@ void generate_cell_row(const LatticeCells& cells, const Plan& plan, const Triang
                           centroids,
                           j,
                           k,
-                          triangles + 3 * plan.first_triangle(row.row[0]),
+                          triangles + 3 * (plan.first_triangle(row.row[0]) - plan.part_triangle),
                           corner_bytes(isa)};
   if ((row.any_flags & kRowZero) != 0) {
     dispatch<true>(isa, job, row);

@@ -148,8 +148,8 @@ std::size_t collect_crossings(const SignLattice& lattice, std::int64_t j, std::i
 
 template <class Real>
 VertexWriter<Real>::VertexWriter(const VolumeView& view, double isovalue, const Options& options,
-                                 const SignLattice& lattice, const Plan& plan,
-                                 const VertexArrays<Real>& arrays)
+                                 const Geometry& geometry, const SignLattice& lattice,
+                                 const Plan& plan, const VertexArrays<Real>& arrays)
     : view_(view),
       strides_(view.effective_strides()),
       isovalue_(isovalue),
@@ -157,7 +157,7 @@ VertexWriter<Real>::VertexWriter(const VolumeView& view, double isovalue, const 
       lattice_(lattice),
       plan_(plan),
       arrays_(arrays),
-      geometry_(view, options.border == Border::capped),
+      geometry_(geometry),
       attributes_(view, options),
       index_(static_cast<std::size_t>(lattice.nx)),
       parameter_(static_cast<std::size_t>(lattice.nx)) {}
@@ -166,7 +166,7 @@ template <class Real>
 void VertexWriter<Real>::write_row(std::int64_t j, std::int64_t k) {
   const std::int64_t row = lattice_.row(j, k);
   const RowPlan& r = plan_.rows[static_cast<std::size_t>(row)];
-  std::int64_t first = plan_.first_vertex(row);
+  std::int64_t first = plan_.first_vertex(row) - plan_.part_vertex;
   if (r.x != 0) write_crossings(j, k, 0, first);
   first += r.x;
   if (r.y != 0) write_crossings(j, k, 1, first);
@@ -196,28 +196,29 @@ void VertexWriter<Real>::write_crossings(std::int64_t j, std::int64_t k, int axi
     });
   }
 
-  const auto x = static_cast<double>(j), z = static_cast<double>(k);
-  const Eigen::Vector3d plane = geometry_.plane(z), y_term = geometry_.y_term(x);
+  const Eigen::Vector3d plane = geometry_.plane(k), y_term = geometry_.y_term(j);
   const auto put = [&](std::size_t m, const Eigen::Vector3d& p) {
     for (int d = 0; d < 3; ++d) out[3 * m + static_cast<std::size_t>(d)] = static_cast<Real>(p[d]);
   };
   switch (axis) {
     case 0: {
       const Eigen::Vector3d line = plane + y_term;
-      for (std::size_t m = 0; m < n; ++m)
-        put(m, line + geometry_.x_term(index_[m] + parameter_[m]));
+      for (std::size_t m = 0; m < n; ++m) {
+        put(m, line + geometry_.x_term(index_[m], parameter_[m]));
+      }
       break;
     }
     case 1:
       for (std::size_t m = 0; m < n; ++m) {
-        put(m, plane + geometry_.y_term(x + parameter_[m]) + geometry_.x_term(index_[m]));
+        put(m, plane + geometry_.y_term(j, parameter_[m]) + geometry_.x_term(index_[m]));
       }
       break;
     default:
       for (std::size_t m = 0; m < n; ++m) {
-        put(m, geometry_.plane(z + parameter_[m]) + y_term + geometry_.x_term(index_[m]));
+        put(m, geometry_.plane(k, parameter_[m]) + y_term + geometry_.x_term(index_[m]));
       }
   }
+  if (arrays_.edges != nullptr) write_edges(j, k, axis, n, first);
   if (arrays_.with_attributes()) write_attributes(j, k, axis, n, first);
 }
 
@@ -227,15 +228,32 @@ void VertexWriter<Real>::write_zeros(std::int64_t j, std::int64_t k, std::int64_
   const Crossings crossings(lattice_);
   const std::size_t n = collect(
       lattice_.words, [&](std::int64_t w) { return crossings.used_zeros(j, k, w); }, index_.data());
-  const Eigen::Vector3d line =
-      geometry_.plane(static_cast<double>(k)) + geometry_.y_term(static_cast<double>(j));
+  const Eigen::Vector3d line = geometry_.plane(k) + geometry_.y_term(j);
   for (std::size_t m = 0; m < n; ++m) {
     const Eigen::Vector3d p = line + geometry_.x_term(index_[m]);
     for (int d = 0; d < 3; ++d) out[3 * m + static_cast<std::size_t>(d)] = static_cast<Real>(p[d]);
   }
-  if (arrays_.with_attributes()) {
+  if (arrays_.with_attributes() || arrays_.edges != nullptr) {
     std::fill_n(parameter_.begin(), n, 0.0);
-    write_attributes(j, k, 0, n, first);
+    if (arrays_.edges != nullptr) write_edges(j, k, 0, n, first);
+    if (arrays_.with_attributes()) write_attributes(j, k, 0, n, first);
+  }
+}
+
+template <class Real>
+void VertexWriter<Real>::write_edges(std::int64_t j, std::int64_t k, int axis, std::size_t count,
+                                     std::int64_t first) const {
+  const std::int64_t margin = capped_ ? 1 : 0;
+  const auto d = static_cast<std::size_t>(axis);
+  for (std::size_t m = 0; m < count; ++m) {
+    std::array<std::int64_t, 3> lower{index_[m] - margin, j - margin, k - margin};
+    const auto vertex = static_cast<std::size_t>(first) + m;
+    const bool before = lower[d] < 0;
+    const bool cap = before || (parameter_[m] > 0.0 && lower[d] + 1 >= view_.dims[d]);
+    if (before) lower[d] = 0;
+    arrays_.edges[vertex] =
+        3 * (lower[0] + view_.dims[0] * (lower[1] + view_.dims[1] * lower[2])) + (cap ? 0 : axis);
+    arrays_.edge_parameters[vertex] = cap ? Real{0} : static_cast<Real>(parameter_[m]);
   }
 }
 

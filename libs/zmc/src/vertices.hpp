@@ -18,6 +18,8 @@ struct VertexArrays {
   Real* positions = nullptr;
   Real* gradients = nullptr;
   Real* normals = nullptr;
+  std::int64_t* edges = nullptr;  ///< As Surface::edges; with it, edge_parameters.
+  Real* edge_parameters = nullptr;
 
   void put(std::int64_t vertex, const VertexAttributes& attributes) const {
     for (int d = 0; d < 3; ++d) {
@@ -34,16 +36,19 @@ template <class Real>
 class VertexWriter {
  public:
   VertexWriter(const VolumeView& view, double isovalue, const Options& options,
-               const SignLattice& lattice, const Plan& plan, const VertexArrays<Real>& arrays);
+               const Geometry& geometry, const SignLattice& lattice, const Plan& plan,
+               const VertexArrays<Real>& arrays);
 
   /// Crossings along x, y, z and used zero samples of row (j, k).
   void write_row(std::int64_t j, std::int64_t k);
 
  private:
   void write_crossings(std::int64_t j, std::int64_t k, int axis, std::int64_t first);
+  void write_edges(std::int64_t j, std::int64_t k, int axis, std::size_t count,
+                   std::int64_t first) const;
   void write_zeros(std::int64_t j, std::int64_t k, std::int64_t first);
-  /// Attributes of `count` vertices in hand on edges along an axis; parameters of 0 stand for
-  /// lattice points.
+  /// Edges and attributes of `count` vertices in hand on edges along an axis; parameters of 0 stand
+  /// for lattice points.
   void write_attributes(std::int64_t j, std::int64_t k, int axis, std::size_t count,
                         std::int64_t first);
 
@@ -54,7 +59,7 @@ class VertexWriter {
   const SignLattice& lattice_;
   const Plan& plan_;
   VertexArrays<Real> arrays_;
-  Geometry geometry_;
+  const Geometry& geometry_;
   AttributeSampler attributes_;
   std::vector<std::uint32_t> index_;  ///< Along x, of the vertices in hand.
   std::vector<double> parameter_;     ///< Their places on their edges, 0 … 1.

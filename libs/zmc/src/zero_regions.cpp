@@ -1,6 +1,6 @@
 #include "zero_regions.hpp"
 
-#include <array>
+#include <algorithm>
 #include <vector>
 
 namespace shape3d::zmc::detail {
@@ -8,106 +8,111 @@ namespace {
 
 constexpr unsigned kAllZero = 0xFF00u;
 
-struct Place {
-  std::int64_t i, j, k;
-};
+bool is_all_zero(const SignLattice& lattice, const CellPlace& p) {
+  return (lattice.cell_mask(p.i, p.j, p.k) & kAllZero) == kAllZero;
+}
 
-/// Face neighbours in lattice order, and the face by which the neighbour touches the cell.
-struct Step {
-  int di, dj, dk, face_of_neighbour;
-};
-constexpr std::array<Step, 6> kSteps{
-    {{0, 0, -1, 5}, {0, -1, 0, 3}, {-1, 0, 0, 1}, {1, 0, 0, 0}, {0, 1, 0, 2}, {0, 0, 1, 4}}};
+bool is_cell(const SignLattice& lattice, const CellPlace& p) {
+  return p.i >= 0 && p.j >= 0 && p.k >= 0 && p.i + 1 < lattice.nx && p.j + 1 < lattice.ny &&
+         p.k + 1 < lattice.nz && lattice.cell_valid(p.i, p.j, p.k);
+}
 
-/// Calls visit for each all-zero cell in lattice order.
-template <class Visit>
-void for_each_all_zero_cell(const SignLattice& lattice, Visit&& visit) {
-  for (std::int64_t k = 0; k + 1 < lattice.nz; ++k) {
+CellPlace neighbour(const CellPlace& p, const NeighbourStep& s) {
+  return {p.i + s.di, p.j + s.dj, p.k + s.dk};
+}
+
+/// Of a cell that is not all zero.
+int solved_face_sign(const LatticeCells& cells, const CellPlace& p, int face) {
+  const CellConfig& config =
+      cells.config_of_mask(cells.lattice().cell_mask(p.i, p.j, p.k), p.i, p.j, p.k);
+  return ((config.face_positive >> face) & 1) - ((config.face_negative >> face) & 1);
+}
+
+}  // namespace
+
+void for_each_all_zero_cell(const SignLattice& lattice, std::int64_t first, std::int64_t last,
+                            const std::function<void(const CellPlace&)>& visit) {
+  for (std::int64_t k = first; k < std::min(last, lattice.nz - 1); ++k) {
     for (std::int64_t j = 0; j + 1 < lattice.ny; ++j) {
-      const std::int64_t r[4] = {lattice.row(j, k), lattice.row(j + 1, k), lattice.row(j, k + 1),
-                                 lattice.row(j + 1, k + 1)};
+      const std::array<std::int64_t, 4> r{lattice.row(j, k), lattice.row(j + 1, k),
+                                          lattice.row(j, k + 1), lattice.row(j + 1, k + 1)};
       unsigned all = kRowZero;
       for (const std::int64_t row : r) all &= lattice.flags[static_cast<std::size_t>(row)];
       if (all == 0) continue;
       for (std::int64_t w = 0; w < lattice.words; ++w) {
         Word zero = below_mask(lattice.nx - 1, w);
-        for (const std::int64_t row : r)
+        for (const std::int64_t row : r) {
           zero &= load(lattice.z_row(row) + w) & load_next(lattice.z_row(row), w);
-        if (lattice.masked)
+        }
+        if (lattice.masked) {
           zero &= lattice.cell_bits[static_cast<std::size_t>(r[0] * lattice.words + w)];
-        for (; zero != 0; zero &= zero - 1) visit(Place{64 * w + __builtin_ctzll(zero), j, k});
+        }
+        for (; zero != 0; zero &= zero - 1) visit({64 * w + __builtin_ctzll(zero), j, k});
       }
     }
   }
 }
 
-}  // namespace
+int sign_of_solved_neighbour(const LatticeCells& cells, const CellPlace& cell, SeenSigns& seen) {
+  int sign = 0;
+  for (const NeighbourStep& step : kNeighbourSteps) {
+    const CellPlace q = neighbour(cell, step);
+    if (!is_cell(cells.lattice(), q) || is_all_zero(cells.lattice(), q)) continue;
+    const int sees = solved_face_sign(cells, q, step.face_of_neighbour);
+    (sees > 0 ? seen.positive : seen.negative) = true;
+    if (sign == 0) sign = sees;
+  }
+  return sign;
+}
 
 int face_sign(const LatticeCells& cells, const ZeroRegions& regions, std::int64_t i, std::int64_t j,
               std::int64_t k, int face) {
-  const unsigned mask = cells.lattice().cell_mask(i, j, k);
-  if ((mask & kAllZero) == kAllZero) return regions.sign(i, cells.lattice().row(j, k));
-  const CellConfig& config = cells.config_of_mask(mask, i, j, k);
-  return ((config.face_positive >> face) & 1) - ((config.face_negative >> face) & 1);
+  if (is_all_zero(cells.lattice(), {i, j, k})) return regions.sign(i, cells.lattice().row(j, k));
+  return solved_face_sign(cells, {i, j, k}, face);
+}
+
+void ZeroRegions::set_uniform(int sign, std::int64_t count) {
+  uniform_ = true;
+  uniform_sign_ = sign;
+  count_ = count;
+}
+
+void ZeroRegions::set_single(const SignLattice& lattice, std::int64_t count) {
+  uniform_ = false;
+  words_ = lattice.words;
+  count_ = count;
+  positive_.assign(static_cast<std::size_t>(lattice.rows() * lattice.words), Word{0});
+  negative_.assign(static_cast<std::size_t>(lattice.rows() * lattice.words), Word{0});
 }
 
 void ZeroRegions::solve(const LatticeCells& cells) {
   const SignLattice& lattice = cells.lattice();
-  words_ = lattice.words;
-  count_ = 0;
-  uniform_ = true;
-  uniform_sign_ = 0;
-
-  const auto inside = [&](const Place& p) {
-    return p.i >= 0 && p.j >= 0 && p.k >= 0 && p.i + 1 < lattice.nx && p.j + 1 < lattice.ny &&
-           p.k + 1 < lattice.nz && lattice.cell_valid(p.i, p.j, p.k);
-  };
-  const auto all_zero = [&](const Place& p) {
-    return (lattice.cell_mask(p.i, p.j, p.k) & kAllZero) == kAllZero;
-  };
-  const auto neighbour = [](const Place& p, const Step& s) {
-    return Place{p.i + s.di, p.j + s.dj, p.k + s.dk};
-  };
-
-  // Distance 1: the signs of solved neighbours.
   struct Labelled {
-    Place place;
+    CellPlace place;
     int sign;
   };
+  // Distance 1: the signs of solved neighbours.
   std::vector<Labelled> frontier;
-  bool seen_positive = false, seen_negative = false;
-  for_each_all_zero_cell(lattice, [&](const Place& p) {
-    ++count_;
-    int sign = 0;
-    for (const Step& step : kSteps) {
-      const Place q = neighbour(p, step);
-      if (!inside(q) || all_zero(q)) continue;
-      const int seen = face_sign(cells, *this, q.i, q.j, q.k, step.face_of_neighbour);
-      (seen > 0 ? seen_positive : seen_negative) = true;
-      if (sign == 0) sign = seen;
-    }
+  SeenSigns seen;
+  std::int64_t count = 0;
+  for_each_all_zero_cell(lattice, 0, lattice.nz, [&](const CellPlace& p) {
+    ++count;
+    const int sign = sign_of_solved_neighbour(cells, p, seen);
     if (sign != 0) frontier.push_back({p, sign});
   });
-  if (!(seen_positive && seen_negative)) {
-    uniform_sign_ = seen_positive ? 1 : seen_negative ? -1 : 0;
+  if (!(seen.positive && seen.negative)) {
+    set_uniform(seen.positive ? 1 : seen.negative ? -1 : 0, count);
     return;
   }
+  set_single(lattice, count);
 
-  uniform_ = false;
-  const auto size = static_cast<std::size_t>(lattice.rows() * lattice.words + 1);
-  positive_.resize(size);
-  negative_.resize(size);
-  std::fill(positive_.begin(), positive_.end(), Word{0});
-  std::fill(negative_.begin(), negative_.end(), Word{0});
-  const auto sign_at = [&](const Place& p) { return sign(p.i, lattice.row(p.j, p.k)); };
+  const auto sign_at = [&](const CellPlace& p) { return sign(p.i, lattice.row(p.j, p.k)); };
   // Writes the signs of a level; keeps each of its cells once.
   const auto commit = [&](std::vector<Labelled>& labels) {
     std::size_t kept = 0;
     for (const Labelled& label : labels) {
       if (sign_at(label.place) != 0) continue;
-      const auto word = static_cast<std::size_t>(
-          lattice.row(label.place.j, label.place.k) * words_ + (label.place.i >> 6));
-      (label.sign > 0 ? positive_ : negative_)[word] |= Word{1} << (label.place.i & 63);
+      set_sign(label.place.i, lattice.row(label.place.j, label.place.k), label.sign);
       labels[kept++] = label;
     }
     labels.resize(kept);
@@ -119,13 +124,13 @@ void ZeroRegions::solve(const LatticeCells& cells) {
   while (!frontier.empty()) {
     next.clear();
     for (const Labelled& from : frontier) {
-      for (const Step& step : kSteps) {
-        const Place p = neighbour(from.place, step);
-        if (!inside(p) || !all_zero(p) || sign_at(p) != 0) continue;
+      for (const NeighbourStep& step : kNeighbourSteps) {
+        const CellPlace p = neighbour(from.place, step);
+        if (!is_cell(lattice, p) || !is_all_zero(lattice, p) || sign_at(p) != 0) continue;
         int sign = 0;
-        for (const Step& back : kSteps) {
-          const Place q = neighbour(p, back);
-          if (!inside(q) || !all_zero(q)) continue;
+        for (const NeighbourStep& back : kNeighbourSteps) {
+          const CellPlace q = neighbour(p, back);
+          if (!is_cell(lattice, q) || !is_all_zero(lattice, q)) continue;
           sign = sign_at(q);
           if (sign != 0) break;
         }

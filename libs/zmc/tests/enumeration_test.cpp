@@ -96,5 +96,6 @@ TEST_CASE("cell_patches equals the rules for all 7^8 assignments", "[zmc][refere
   }
   CHECK(failures == 0);
   CHECK(resolutions_of.size() == 8441);
+  CHECK(edges_of.size() == 8441);  // Each configuration has one R.
 }
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace detail {
 /// Memory for large arrays, on huge pages where the system has them: a first touch costs a page
 /// fault, which is dearer than the writing itself. @throws std::bad_alloc
 [[nodiscard]] SHAPE3D_ZMC_EXPORT void* allocate_array(std::size_t bytes);
-SHAPE3D_ZMC_EXPORT void free_array(void* array, std::size_t bytes) noexcept;
+SHAPE3D_ZMC_EXPORT void free_array(void* array) noexcept;
 
 /// Allocator whose containers leave new elements uninitialised on resize().
 template <class T>
@@ -33,7 +34,7 @@ struct ArrayAllocator {
     if (count > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
     return static_cast<T*>(allocate_array(count * sizeof(T)));
   }
-  void deallocate(T* array, std::size_t count) noexcept { free_array(array, count * sizeof(T)); }
+  void deallocate(T* array, std::size_t /*count*/) noexcept { free_array(array); }
   template <class U>
   void construct(U* p) noexcept {
     ::new (static_cast<void*>(p)) U;
@@ -47,6 +48,16 @@ struct ArrayAllocator {
 };
 template <class T>
 using Buffer = std::vector<T, ArrayAllocator<T>>;
+
+/// Takes the array out of a buffer without a copy: null when the buffer has none. The caller ends
+/// it with free_array(). For hand-over to libraries that keep arrays by address.
+template <class T>
+[[nodiscard]] T* release_array(Buffer<T>&& buffer) noexcept {
+  static_assert(std::is_trivially_destructible_v<T>);
+  // A vector gives its array up only by its destructor, so this one never ends.
+  alignas(Buffer<T>) unsigned char storage[sizeof(Buffer<T>)];
+  return (::new (static_cast<void*>(storage)) Buffer<T>(std::move(buffer)))->data();
+}
 }  // namespace detail
 
 /// Where a triangle comes from.
@@ -88,13 +99,22 @@ struct Surface {
 
   detail::Buffer<Real> positions;  ///< 3·n world coordinates, x y z of vertex 0 first.
   detail::Buffer<Index> indices;   ///< 3·m vertex ids, counter-clockwise seen from outside.
-  /// With Options::gradients, 3·n: the gradient of the samples in world units, by central differences
-  /// at lattice points (one-sided at the border and beside masked samples, 0 where neither side is
-  /// there), interpolated along lattice edges, averaged at centroids. On a cap it is 0.
+  /// With Options::gradients, 3·n: the gradient of the samples in world units, by central
+  /// differences at lattice points (one-sided at the border and beside masked samples, 0 where
+  /// neither side is there), interpolated along lattice edges, averaged at centroids. On a cap it
+  /// is 0.
   detail::Buffer<Real> gradients;
   /// With Options::normals, 3·n: the unit vector along the gradient that points from inside to
   /// outside; on a cap the direction out of the volume. Zero where the gradient vanishes.
   detail::Buffer<Real> normals;
+  /// With Options::edges, n: the lattice edge that a vertex lies on, 3·(i + nx·(j + ny·k)) + axis
+  /// of its lower end (i, j, k). A zero sample, and the border sample under a cap, count as the
+  /// beginning of an edge along x. −1: a centroid, which is the mean of the vertices that it shares
+  /// triangles with.
+  detail::Buffer<std::int64_t> edges;
+  /// With Options::edges, n: the place on that edge, 0 at its lower end, 1 at its upper; 0 for
+  /// centroids. Interpolates other samples of the lattice: (1 − t)·lower + t·upper.
+  detail::Buffer<Real> edge_parameters;
   std::int64_t first_zero_face =
       0;  ///< Triangles [first_zero_face, first_closing) are of kind zero_face.
   std::int64_t first_closing = 0;  ///< Triangles [first_closing, m) are of kind closing.

@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds the program and extracts the bone and the skin of a real CT.
+#   scripts/demo.sh [FOLDER]     the folder receives meshes, pictures and reports; build/demo if none is given
+# SHAPE3D_UPDATE_IMAGES=1 also renews the picture of the README.
+set -euo pipefail
+out=$(realpath --canonicalize-missing "${1:-$(dirname "${BASH_SOURCE[0]}")/../build/demo}")
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+say() { printf '\n== %s\n' "$*"; }
+
+scripts/install-deps.sh
+if command -v ccache >/dev/null; then
+  export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+fi
+say "building"
+cmake --preset release >/dev/null
+cmake --build --preset release --parallel "$(nproc)" --target shape3d
+shape3d=$PWD/build/release/apps/shape3d/shape3d
+started=$SECONDS
+
+archive=$(scripts/skull-data.sh)
+scripts/unpack-skull.py "$archive" "$out"
+read -r bone skin < <(/usr/bin/python3 -c '
+import json, sys
+print(*(part["threshold"] for part in json.load(open(sys.argv[1]))["parts"]))' "$out/skull.json")
+cd "$out"
+
+say "the CT"
+"$shape3d" info skull.mhd
+
+say "bone ($bone) and skin ($skin), closed at the border of the volume"
+"$shape3d" extract skull.mhd --iso "$bone" --iso "$skin" --cap -o skull.ply --json surfaces.json
+mv "skull_$bone.ply" bone.ply
+mv "skull_$skin.ply" skin.ply
+/usr/bin/python3 - <<'PYTHON'
+import json
+surfaces = json.load(open("surfaces.json"))["surfaces"]
+for surface, part in zip(surfaces, json.load(open("skull.json"))["parts"]):
+    print(f"\nvolume at {part['threshold']}: {surface['volume']:,.1f} mm3; "
+          f"of the surface that comes with the CT: {part['volume']:,.1f} mm3", end="")
+print()
+PYTHON
+
+say "the same beside VTK's extractors, not capped"
+"$shape3d" compare skull.mhd --iso "$bone" --json compare.json
+
+say "the contour in the middle slice"
+"$shape3d" contours skull.mhd --iso "$bone" --axis z --slice 54 -o slice.svg
+
+say "pictures"
+"$shape3d" render bone.ply --largest -o skull.png --size 800x800
+"$shape3d" render bone.ply skin.ply --largest --color bone --color skin --opacity 1 --opacity 0.3 \
+  --view oblique -o head.png --size 800x800
+if [[ ${SHAPE3D_UPDATE_IMAGES:-0} == 1 ]]; then
+  "$shape3d" render bone.ply --largest -o "$OLDPWD/docs/images/skull.png" --size 420x420
+fi
+
+say "done in $((SECONDS - started)) s after the build"
+echo "The pictures are $out/skull.png, $out/head.png and $out/slice.svg; the meshes bone.ply and skin.ply are beside them."
