@@ -4,6 +4,7 @@
 // appendix A.
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -27,12 +28,20 @@ struct Comparison {
 /// Answers a comparison from |sample − isovalue| at the eight cell vertices.
 inline bool positive_prevails(const Comparison& c, const std::array<double, 8>& magnitude,
                               TieRule ties) {
-  const auto product = [&](const std::array<std::int8_t, 2>& v) {
-    return v[1] < 0 ? magnitude[v[0]] : magnitude[v[0]] * magnitude[v[1]];
+  // A product as its nearest double and what rounding left over, so that only equal products tie.
+  struct Product {
+    double value, rest;
   };
-  const double p = product(c.positive);
-  const double n = product(c.negative);
-  if (p != n) return p > n;
+  const auto product = [&](const std::array<std::int8_t, 2>& v) {
+    if (v[1] < 0) return Product{magnitude[v[0]], 0.0};
+    const double value = magnitude[v[0]] * magnitude[v[1]];
+    return Product{value,
+                   std::isfinite(value) ? std::fma(magnitude[v[0]], magnitude[v[1]], -value) : 0.0};
+  };
+  const Product p = product(c.positive);
+  const Product n = product(c.negative);
+  if (p.value != n.value) return p.value > n.value;
+  if (p.rest != n.rest) return p.rest > n.rest;
   return ties == TieRule::positive || c.first_is_positive;
 }
 

@@ -1,4 +1,5 @@
 #include "shape3d/zmc/cell.hpp"
+#include <array>
 
 #include <algorithm>
 #include <cmath>
@@ -208,4 +209,22 @@ TEST_CASE("cell_patches refuses a sample that is not finite", "[zmc][contract]")
     CHECK_THROWS_AS(cell_patches(samples), std::invalid_argument);
   }
 }
+TEST_CASE("products that round to the same double are told apart", "[zmc][cell]") {
+  // (1 + e)² = 1 + 2e + e² against 1 · (1 + 2e): equal as doubles, the positive product is larger.
+  const double e = std::numeric_limits<double>::epsilon();
+  const auto cut_corners = [&](double sign) {
+    std::array<double, 8> samples{-1.0, 1.0 + e, -(1.0 + 2.0 * e), 1.0 + e, -5.0, 5.0, -5.0, 5.0};
+    for (double& sample : samples) sample *= sign;
+    std::set<std::set<int>> edges;
+    for (const PatchEdge& edge : cell_patches(samples).patch_edges) {
+      if (edge.face == 4) edges.insert({edge.from, edge.to});
+    }
+    return edges;
+  };
+  // Face −z: the corners 0 and 2, of the smaller product, are cut off.
+  const std::set<std::set<int>> expected{{0, 3}, {1, 2}};
+  CHECK(cut_corners(1.0) == expected);
+  CHECK(cut_corners(-1.0) == expected);
+}
+
 }  // namespace
