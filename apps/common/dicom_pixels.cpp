@@ -77,8 +77,7 @@ void read_with_vtk(const std::vector<DicomFile>& files, const std::vector<std::s
   reader->AutoYBRToRGBOff();
   reader->SetMemoryRowOrderToFileNative();
   reader->Update();
-  for (const std::string& error :
-       {messages.first_error(), messages.first_warning(), messages.first_gdcm_error()}) {
+  for (const std::string& error : {messages.first_error(), messages.first_gdcm_error()}) {
     if (!error.empty()) throw std::runtime_error(error);
   }
   if (!reader->failed().empty()) {
@@ -94,6 +93,9 @@ void read_with_vtk(const std::vector<DicomFile>& files, const std::vector<std::s
   if (found != bytes) {
     throw std::runtime_error("they gave " + std::to_string(found) + " bytes; expected " +
                              std::to_string(bytes));
+  }
+  if (array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE) {
+    throw std::runtime_error("they are reals; expected integers");
   }
   const std::size_t slice = bytes / order.size();
   const auto* pixels = static_cast<const std::byte*>(array->GetVoidPointer(0));

@@ -151,9 +151,10 @@ class Parser {
   // What is wrong with the image as a part of a volume; empty when nothing is.
   [[nodiscard]] std::string read_image(DicomFile& file) const {
     if (!has_pixels_) return "ends before its pixel data";
-    if (file.rows < 1 || file.columns < 1) {
+    constexpr std::int64_t kMostRows = 65535;
+    if (std::min(file.rows, file.columns) < 1 || std::max(file.rows, file.columns) > kMostRows) {
       return "has " + std::to_string(file.rows) + " rows and " + std::to_string(file.columns) +
-             " columns; expected positive numbers";
+             " columns; expected 1 to 65535";
     }
     if (!file.transfer_syntax.empty() && !is_read(file.transfer_syntax)) {
       return "has transfer syntax " + in_quotes(file.transfer_syntax) +
@@ -211,7 +212,8 @@ class Parser {
     const std::uint64_t expected =
         static_cast<std::uint64_t>(file.rows * file.columns * frames) * sample_size(file.type);
     const std::uint64_t found = size - std::min(size, pixel_offset_);
-    if (found < expected || pixel_length_ < expected) {
+    // One byte fills an odd number up.
+    if (found < expected || pixel_length_ < expected || pixel_length_ > expected + 1) {
       return "holds " + std::to_string(std::min<std::uint64_t>(found, pixel_length_)) +
              " bytes of pixel data; expected " + std::to_string(expected) + ", says the header";
     }

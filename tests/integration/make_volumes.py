@@ -838,8 +838,19 @@ def dicom(folder):
     all_changed("high_bit", "stores 12 bits up to bit 15 of 16", BitsStored=12, HighBit=15)
     all_changed("slope0", "slope 0 and intercept 0", RescaleSlope="0", RescaleIntercept="0")
     all_changed("few_pixels", "holds 30 bytes of pixel data", "expected 40", PixelData=b"\0" * 30)
+    all_changed("many_pixels", "holds 50 bytes of pixel data", "expected 40", PixelData=b"\0" * 50)
+    all_changed("fewer_rows", "holds 40 bytes of pixel data", "expected 30", Rows=3)
     all_changed("zero_rows", "has 0 rows", Rows=0)
     all_changed("unpositioned", "has no ImagePositionPatient", NumberOfFrames=1, ImagePositionPatient=["1", "2"])
+
+    # Pixels of another kind.
+    def float_pixels(data):
+        del data.PixelData
+        data.FloatPixelData = np.zeros(20, "float32").tobytes()
+        data.BitsAllocated = data.BitsStored = 32
+        data.HighBit = 31
+    series("floats", change=float_pixels)
+    folder.expect_error("floats")
 
     # Cut files: in the pixels, at them, in the header, in its first group, in the preamble, to nothing.
     series("whole")

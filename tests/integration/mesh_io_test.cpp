@@ -105,7 +105,8 @@ TEST_CASE("double coordinates survive every format that has them", "[mesh_io][ro
   }
 }
 
-TEST_CASE("STL keeps the shape, in floats when binary, and merges the vertices again", "[mesh_io][round trip]") {
+TEST_CASE("STL keeps the shape, in floats when binary, and merges the vertices again",
+          "[mesh_io][round trip]") {
   Mesh mesh = torus(9, 7);
   mesh.space = "LPS";
   for (const MeshEncoding encoding : {MeshEncoding::binary, MeshEncoding::ascii}) {
@@ -118,7 +119,8 @@ TEST_CASE("STL keeps the shape, in floats when binary, and merges the vertices a
         const Eigen::RowVector3d p = mesh.V.row(mesh.F(t, c));
         Eigen::RowVector3d rounded;
         for (int i = 0; i < 3; ++i) {
-          const volatile float narrow = static_cast<float>(p[i]);  // GCC 12 elides the pair of casts
+          const volatile float narrow =
+              static_cast<float>(p[i]);  // GCC 12 elides the pair of casts
           rounded[i] = narrow;
         }
         const Eigen::RowVector3d q = file.mesh.V.row(file.mesh.F(t, c));
@@ -431,7 +433,8 @@ TEST_CASE("malformed PLY", "[mesh_io][ply][error]") {
   CHECK_THAT(error(kPlyHead + "0 0 0\n1 0 0\n0 1 0\n3 0 1\n"), Contains("expected vertex_indices"));
   // Binary: the last byte is missing; a NaN; an index out of range.
   std::string binary = bytes_of(tetrahedron(), MeshFormat::ply);
-  CHECK_THAT(error(binary.substr(0, binary.size() - 1)), Contains("a list vertex_indices of 3 values does not fit the file"));
+  CHECK_THAT(error(binary.substr(0, binary.size() - 1)),
+             Contains("a list vertex_indices of 3 values does not fit the file"));
   CHECK_THAT(error(binary.substr(0, binary.size() - 60)), Contains("bytes or more of data, but"));
   CHECK(parse(binary + "xyz", MeshFormat::ply).warnings.at(0) ==
         "3 bytes after the last element were not read");
