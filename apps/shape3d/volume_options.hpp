@@ -33,7 +33,8 @@ void add_space_option(CLI::App& command, std::string& space);
 [[nodiscard]] Volume read_volume_of(const VolumeArguments& arguments, const Settings& settings,
                                     Progress& progress);
 
-/// What the library found wrong with a volume, as an error of its file in words of the command line.
+/// What the library found wrong with a volume, as an error of its file in words of the command
+/// line.
 [[noreturn]] void fail_for(const std::string& path, const std::invalid_argument& error);
 
 /// Least and greatest finite sample; empty when there is none.
