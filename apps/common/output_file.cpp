@@ -87,6 +87,7 @@ void OutputFile::abandon() {
 }
 
 void OutputFile::write(const void* data, std::size_t size) {
+  if (size == 0) return;  // an empty array may have no address
   const char* bytes = static_cast<const char*>(data);
   if (size >= kCapacity) {
     flush();
