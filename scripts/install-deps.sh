@@ -9,7 +9,8 @@ packages=(
   build-essential cmake ninja-build ccache                       # build
   libeigen3-dev libtbb-dev                                       # libraries
   libvtk9-dev libvtk-dicom-dev zlib1g-dev                        # programs: volumes, meshes, pictures
-  libcli11-dev nlohmann-json3-dev                                # programs: command line, reports
+  libcgal-dev libceres-dev                                       # libraries: mapping
+  libcli11-dev nlohmann-json3-dev libhdf5-dev                    # programs: command line, reports, tables
   xvfb xauth libgl1-mesa-dri                                     # pictures without a display
   catch2 libbenchmark-dev                                        # tests, benchmarks
   python3-nibabel python3-pydicom python3-numpy                  # fixtures of the tests

@@ -1,8 +1,10 @@
 #include "program.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -20,10 +22,25 @@ int fail(const std::string& sentence, int status) {
   return status;
 }
 
-bool has_command(const CLI::App& app, const std::string& name) {
-  const auto commands =
-      app.get_subcommands([&name](const CLI::App* command) { return command->get_name() == name; });
-  return !commands.empty();
+std::vector<CLI::App*> commands_of(CLI::App& app) {
+  return app.get_subcommands([](CLI::App*) { return true; });
+}
+
+bool has_command(CLI::App& app, const std::string& name) {
+  const auto commands = commands_of(app);
+  return std::any_of(commands.begin(), commands.end(),
+                     [&name](const CLI::App* command) { return command->get_name() == name; });
+}
+
+// "info, extract or check"
+std::string command_names(CLI::App& app) {
+  const auto commands = commands_of(app);
+  std::string names;
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    if (i > 0) names += i + 1 == commands.size() ? " or " : ", ";
+    names += commands[i]->get_name();
+  }
+  return names;
 }
 
 void add_shared_options(CLI::App& app, Settings& settings) {
@@ -45,8 +62,7 @@ int run_program(int argc, char** argv) {
   install_interrupt_handler();
   Settings settings;
   CLI::App app(
-      "Surfaces from volumes by Zero-crossing Marching Cubes: closed and sign-neutral for every "
-      "volume.");
+      "3D shape analysis: surfaces from volumes, and what is computed of surfaces and volumes.");
   app.name("shape3d");
   app.set_version_flag("--version", "shape3d " SHAPE3D_VERSION);
   app.require_subcommand(1);
@@ -64,11 +80,9 @@ int run_program(int argc, char** argv) {
   add_check(app, settings);
   add_render(app, settings);
   add_compare(app, settings);
-  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
-    add_shared_options(*command, settings);
+  for (CLI::App* command : commands_of(app)) add_shared_options(*command, settings);
   if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
-    return fail(std::string("unknown command '") + argv[1] +
-                    "', expected info, extract, contours, check, render or compare",
+    return fail(std::string("unknown command '") + argv[1] + "', expected " + command_names(app),
                 kUsage);
   }
   try {
