@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 
-#include "child_process.hpp"
+#include "offscreen.hpp"
 
 namespace shape3d::apps {
 namespace {
@@ -39,35 +38,22 @@ void check(const std::vector<SceneMesh>& meshes) {
   for (const SceneMesh& item : meshes) check(item);
 }
 
-ChildResult render_on(const std::string& display, const std::vector<Drawing>& drawings,
-                      const Color& background) {
-  return run_in_child([&] {
-    setenv("DISPLAY", display.c_str(), 1);
-    std::string pixels;
-    for (const Drawing& drawing : drawings) {
-      const Raster raster =
-          render_scene(*drawing.meshes, drawing.view, drawing.width, drawing.height, background);
-      pixels.append(reinterpret_cast<const char*>(raster.rgb.data()), raster.rgb.size());
-    }
-    return pixels;
-  });
-}
-
 // One raster for each drawing.
 std::vector<Raster> render(const std::vector<Drawing>& drawings, const PictureOptions& options) {
   std::vector<Raster> rasters;
   if (drawings.empty()) return rasters;
-  ChildResult result;
-  if (const char* display = std::getenv("DISPLAY");
-      display != nullptr && *display != '\0' && !options.private_display) {
-    result = render_on(display, drawings, options.background);
-  }
-  if (!result.ok) {
-    const PrivateDisplay display;
-    result = render_on(display.name(), drawings, options.background);
-  }
-  if (!result.ok) throw PictureError("the picture could not be drawn: " + result.error);
-  const char* pixels = result.output.data();
+  const std::string output = draw_offscreen(
+      [&] {
+        std::string pixels;
+        for (const Drawing& drawing : drawings) {
+          const Raster raster = render_scene(*drawing.meshes, drawing.view, drawing.width,
+                                             drawing.height, options.background);
+          pixels.append(reinterpret_cast<const char*>(raster.rgb.data()), raster.rgb.size());
+        }
+        return pixels;
+      },
+      options.private_display);
+  const char* pixels = output.data();
   for (const Drawing& drawing : drawings) {
     rasters.push_back(make_raster(drawing.width, drawing.height, options.background));
     std::memcpy(rasters.back().rgb.data(), pixels, rasters.back().rgb.size());

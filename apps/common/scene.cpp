@@ -9,7 +9,6 @@
 #include <vtkCellData.h>
 #include <vtkCleanPolyData.h>
 #include <vtkFloatArray.h>
-#include <vtkImageData.h>
 #include <vtkLightKit.h>
 #include <vtkNew.h>
 #include <vtkOpenGLRenderer.h>
@@ -22,12 +21,11 @@
 #include <vtkRenderStepsPass.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
-#include <vtkSMPTools.h>
 #include <vtkSSAOPass.h>
 #include <vtkUnsignedCharArray.h>
-#include <vtkWindowToImageFilter.h>
 #include <Eigen/Geometry>
 
+#include "offscreen.hpp"
 #include "vtk_mesh.hpp"
 
 namespace shape3d::apps {
@@ -190,27 +188,6 @@ void place_camera(vtkRenderer* renderer, View view, double aspect) {
   renderer->ResetCameraClippingRange();
 }
 
-// Mean of kSamples × kSamples pixels; VTK's images begin at the foot.
-Raster shrink(vtkImageData* large, int width, int height) {
-  Raster small = make_raster(width, height, {1.0, 1.0, 1.0});
-  const auto* from = static_cast<const unsigned char*>(large->GetScalarPointer());
-  std::uint8_t* to = small.rgb.data();
-  const int stride = 3 * kSamples * width;
-  for (int y = height - 1; y >= 0; --y) {
-    for (int x = 0; x < 3 * width; ++x) {
-      int sum = 0;
-      for (int sy = 0; sy < kSamples; ++sy) {
-        for (int sx = 0; sx < kSamples; ++sx) {
-          sum += from[static_cast<std::ptrdiff_t>(kSamples * y + sy) * stride +
-                      3 * (kSamples * (x / 3) + sx) + x % 3];
-        }
-      }
-      *to++ = static_cast<std::uint8_t>((sum + kSamples * kSamples / 2) / (kSamples * kSamples));
-    }
-  }
-  return small;
-}
-
 }  // namespace
 
 std::optional<View> view_named(std::string_view name) {
@@ -222,8 +199,6 @@ std::optional<View> view_named(std::string_view name) {
 
 Raster render_scene(const std::vector<SceneMesh>& meshes, View view, int width, int height,
                     const Color& background) {
-  vtkSMPTools::Initialize(1);
-  vtkSMPTools::SetBackend("Sequential");
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(background[0], background[1], background[2]);
   bool opaque = true, shaded = true;
@@ -268,12 +243,7 @@ Raster render_scene(const std::vector<SceneMesh>& meshes, View view, int width, 
     renderer->SetOcclusionRatio(0.0);
   }
   window->Render();
-  vtkNew<vtkWindowToImageFilter> capture;
-  capture->SetInput(window);
-  capture->ReadFrontBufferOff();
-  capture->SetInputBufferTypeToRGB();
-  capture->Update();
-  return shrink(capture->GetOutput(), width, height);
+  return raster_of(window, kSamples);
 }
 
 }  // namespace shape3d::apps

@@ -34,8 +34,7 @@ struct SceneMesh {
 };
 
 /// Draws meshes with smooth shading, ambient occlusion (when all are opaque and fully shaded) and
-/// 2 × 2 samples a pixel, on the display of the environment variable DISPLAY. VTK aborts the
-/// process when there is none: call in a child.
+/// 2 × 2 samples a pixel, in a window of VTK: call within draw_offscreen().
 /// @pre  At least one mesh has a triangle.
 [[nodiscard]] Raster render_scene(const std::vector<SceneMesh>& meshes, View view, int width,
                                   int height, const Color& background);

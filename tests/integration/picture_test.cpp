@@ -4,36 +4,22 @@
 #include <cmath>
 #include <set>
 
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGReader.h>
 #include <catch2/catch.hpp>
 
 #include "common/picture.hpp"
+#include "png_image.hpp"
 
 namespace {
 using namespace shape3d::apps;
 
 using Pixel = std::array<int, 3>;
 
-// The pixels of a PNG file, the top row first.
-Raster decode(const std::string& png) {
-  vtkNew<vtkPNGReader> reader;
-  reader->SetMemoryBuffer(png.data());
-  reader->SetMemoryBufferLength(static_cast<vtkIdType>(png.size()));
-  reader->Update();
-  vtkImageData* image = reader->GetOutput();
-  int dims[3];
-  image->GetDimensions(dims);
-  REQUIRE(image->GetNumberOfScalarComponents() == 3);
-  Raster raster = make_raster(dims[0], dims[1], {0, 0, 0});
-  for (int y = 0; y < dims[1]; ++y) {
-    const auto* row =
-        static_cast<const unsigned char*>(image->GetScalarPointer(0, dims[1] - 1 - y, 0));
-    std::copy(row, row + 3 * dims[0],
-              raster.rgb.begin() + 3 * static_cast<std::ptrdiff_t>(y) * dims[0]);
-  }
-  return raster;
+using shape3d::test::decode_png;
+using shape3d::test::PngImage;
+
+Pixel pixel(const PngImage& image, int x, int y) {
+  const auto& bytes = image.at(x, y);
+  return {bytes[0], bytes[1], bytes[2]};
 }
 
 Pixel pixel(const Raster& raster, int x, int y) {
@@ -143,21 +129,21 @@ TEST_CASE("vertex and triangle colors are drawn as given", "[picture][panels]") 
   item.mesh = view_of(mesh);
   item.shading = 0.0;
   item.vertex_colors = {200, 10, 30, 200, 10, 30, 200, 10, 30, 200, 10, 30};
-  const Raster one = decode(draw_png({item}, options));
+  const PngImage one = decode_png(draw_png({item}, options));
   CHECK(one.width == 200);
   CHECK(pixel(one, 100, 100) == Pixel{200, 10, 30});
   CHECK(pixel(one, 1, 1) == Pixel{0, 0, 255});
   // From the corner (-1, -1) below on the left, red, to the other three, black.
   item.vertex_colors = {240, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-  const Raster mixed = decode(draw_png({item}, options));
+  const PngImage mixed = decode_png(draw_png({item}, options));
   CHECK(pixel(mixed, 100, 140)[0] == Approx(120).margin(2));  // 240 (1 - x) / 2 at x = 0
   item.triangle_colors = {9, 8, 7, 70, 80, 90};
-  const Raster two = decode(draw_png({item}, options));
+  const PngImage two = decode_png(draw_png({item}, options));
   CHECK(pixel(two, 150, 120) == Pixel{9, 8, 7});   // below the diagonal
   CHECK(pixel(two, 50, 80) == Pixel{70, 80, 90});  // above
   // Light and shade leave no pixel as it was given, but its hue.
   item.shading = 1.0;
-  CHECK(pixel(decode(draw_png({item}, options)), 150, 120) != Pixel{9, 8, 7});
+  CHECK(pixel(decode_png(draw_png({item}, options)), 150, 120) != Pixel{9, 8, 7});
 }
 
 TEST_CASE("edges of triangles are drawn on request", "[picture][panels]") {
@@ -168,9 +154,9 @@ TEST_CASE("edges of triangles are drawn on request", "[picture][panels]") {
   item.mesh = view_of(mesh);
   item.shading = 0.0;
   item.color = {1, 0, 0};
-  CHECK(pixel(decode(draw_png({item}, options)), 100, 100) == Pixel{255, 0, 0});
+  CHECK(pixel(decode_png(draw_png({item}, options)), 100, 100) == Pixel{255, 0, 0});
   item.edges = true;
-  const Raster lines = decode(draw_png({item}, options));
+  const PngImage lines = decode_png(draw_png({item}, options));
   int darkest = 255;
   for (int x = 97; x <= 103; ++x) darkest = std::min(darkest, pixel(lines, x, 100)[0]);
   CHECK(darkest < 150);
@@ -192,7 +178,7 @@ TEST_CASE("panels stand side by side, with captions and bars", "[picture][panels
   PictureOptions options;
   options.width = 900;
   options.height = 400;
-  const Raster page = decode(draw_panels({first, second, third}, options));
+  const PngImage page = decode_png(draw_panels({first, second, third}, options));
   REQUIRE(page.width == 900);
   REQUIRE(page.height == 400);
   CHECK(pixel(page, 148, 182) == Pixel{0, 255, 0});
@@ -232,7 +218,7 @@ TEST_CASE("panels in rows", "[picture][panels]") {
   PictureOptions options;
   options.width = options.height = 200;
   options.background = {0, 0, 0.2};
-  const Raster page = decode(draw_panels(panels, options, 2));
+  const PngImage page = decode_png(draw_panels(panels, options, 2));
   CHECK(pixel(page, 50, 50) == Pixel{0, 0, 0});
   CHECK(pixel(page, 150, 50) == Pixel{50, 0, 0});
   CHECK(pixel(page, 50, 150) == Pixel{100, 0, 0});
