@@ -140,7 +140,10 @@ class Extraction {
     } catch (const std::invalid_argument& error) {
       fail_for(arguments_.volume.path, error);
     } catch (const std::bad_alloc&) {
-      // told below
+      throw FileError(arguments_.volume.path, "the surface of isovalue " + shortest(item.isovalue) +
+                                                  " needs more memory than there is; " +
+                                                  bytes_to_text(available_memory()) +
+                                                  " are available");
     }
     const auto needed = static_cast<std::uint64_t>(limit) * kBytesPerVertex;
     throw FileError(arguments_.volume.path,
