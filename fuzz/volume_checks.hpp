@@ -17,12 +17,12 @@ inline constexpr std::uint64_t kVolumeMemory = std::uint64_t{1} << 26;
 /// A message names its file and is printable.
 inline void check_message(const apps::FileError& error) {
   const std::string text = error.what();
-  const std::string path = error.path().string();
+  const std::string path = printable(error.path());
   check(!path.empty() && text.rfind(path + ": ", 0) == 0, "an error names its file: " + text);
   check(text.size() > path.size() + 4, "an error has a sentence: " + text);
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    check(byte >= 32 || c == '\n', "an error is printable: " + text);
+    check((byte >= 32 && byte != 127) || c == '\n', "an error is printable: " + text);
   }
 }
 

@@ -156,7 +156,8 @@ void decode_dims(ByteReader& bytes, ZmcCase& one) {
   // Rows round the widths of words; other axes short, so that a case takes milliseconds.
   one.dims = {2 + bytes.below(140), 2 + bytes.below(12), 2 + bytes.below(12)};
   // More samples, rarely: with fewer than 4096 the library does not share the work.
-  const std::int64_t most = bytes.below(16) == 0 ? 6000 : 1000;
+  const int size = bytes.below(64);
+  const std::int64_t most = size == 0 ? 4500 : size < 8 ? 800 : 200;
   while (one.dims[0] * one.dims[1] * one.dims[2] > most) {
     auto& longest = one.dims[1] >= one.dims[2] ? one.dims[1] : one.dims[2];
     if (longest > 2) {

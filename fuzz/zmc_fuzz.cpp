@@ -136,6 +136,7 @@ void check_attributes(const ZmcCase& one, const Mesh& surface) {
   check(surface.normals.size() == 3 * n && surface.gradients.size() == 3 * n &&
             surface.edges.size() == n && surface.edge_parameters.size() == n,
         "each vertex has its attributes");
+  const bool ordinary = one.ordinary();
   const std::int64_t lattice_edges = 3 * one.dims[0] * one.dims[1] * one.dims[2];
   for (std::size_t v = 0; v < n; ++v) {
     const auto row = static_cast<Eigen::Index>(v);
@@ -154,7 +155,7 @@ void check_attributes(const ZmcCase& one, const Mesh& surface) {
       check(error <= (one.options.border == Border::capped ? 0x1p-19 : 1e-12),
             "a vertex lies at its place on its edge");
     }
-    if (!one.ordinary()) continue;  // differences of samples overflow
+    if (!ordinary) continue;  // differences of samples overflow
     check(surface.G().row(row).allFinite(), "gradients are finite");
     const double length = surface.N().row(row).norm();
     check(length == 0.0 || std::abs(length - 1.0) < 1e-12, "normals are of unit length or zero");
@@ -293,10 +294,12 @@ void check_contour(const ZmcCase& one) {
       ++degree[static_cast<std::size_t>(v)];
     }
   }
+  const bool finite = one.finite();
   for (Eigen::Index v = 0; v < contour.V.rows(); ++v) {
     check(contour.V(v, one.contour_axis) == static_cast<double>(one.contour_slice),
           "contour vertices lie in the plane");
-    bool at_border = !one.finite();
+    // In mating mode the surface has more faces than a closed one.
+    bool at_border = !finite || one.options.zero_faces == ZeroFaces::mating;
     for (int axis = 0; axis < 3; ++axis) {
       if (axis == one.contour_axis) continue;
       const double last = static_cast<double>(one.dims[static_cast<std::size_t>(axis)] - 1);

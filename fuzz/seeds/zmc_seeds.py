@@ -9,6 +9,7 @@ SIGNS, SMALL, RAW, SPECIALS = range(4)
 
 def case(dims, kind, alphabet, choices, samples, threads=0, isa=2, planes=2, layout=0, gap=0, axis=0, plane=0,
          isovalue=b"\0", second=b"\1\5", large=1):
+    """large: 0, 1 or 8 for at most 4500, 800 or 200 samples."""
     head = bytes([dims[0] - 2, dims[1] - 2, dims[2] - 2, large, kind, alphabet, choices, threads, isa, planes, layout,
                   gap, axis, plane])
     return head + isovalue + second + bytes(samples)
