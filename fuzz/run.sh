@@ -15,7 +15,7 @@ corpus=$build/corpus/$target
 findings=$build/findings/$target
 mkdir -p "$corpus" "$findings"
 
-arguments=(-max_total_time=$((60 * minutes)) -timeout=60 -rss_limit_mb=2048 -max_len=16384 -print_final_stats=1
+arguments=(-max_total_time=$((60 * minutes)) -timeout=300 -rss_limit_mb=2048 -max_len=16384 -print_final_stats=1
   -artifact_prefix="$findings/")
 dictionary=$source/dictionaries/$target.dict
 [[ -f $dictionary ]] && arguments+=("-dict=$dictionary")
