@@ -24,6 +24,7 @@ inputs=("$corpus" "$build/fuzz/seeds/$target")
 
 export ASAN_OPTIONS=detect_stack_use_after_return=1
 status=0
-nice -n 19 "$build/fuzz/shape3d_fuzz_$target" "${arguments[@]}" "${inputs[@]}" > "$findings/log" 2>&1 || status=$?
+TIMEFORMAT='%R s, of which %U + %S s of processor time'
+time nice -n 19 "$build/fuzz/shape3d_fuzz_$target" "${arguments[@]}" "${inputs[@]}" > "$findings/log" 2>&1 || status=$?
 grep -E "DONE|^Done|stat::|SUMMARY|violated|unexpected exception|cannot" "$findings/log" || true
 exit $status

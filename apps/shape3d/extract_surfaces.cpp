@@ -149,7 +149,7 @@ class Extraction {
     throw FileError(arguments_.volume.path,
                     "the surface of isovalue " + shortest(item.isovalue) + " has more than " +
                         grouped(limit) + " vertices and needs more than " + bytes_to_text(needed) +
-                        "; " + bytes_to_text(memory) + " are available");
+                        " of memory; " + bytes_to_text(memory) + " are available");
   }
 
   void write(Extracted& item, const std::vector<std::unique_ptr<OutputFile>>& files,
