@@ -186,6 +186,7 @@ ZmcCase decode_zmc_case(const std::uint8_t* data, std::size_t size) {
   options.border = (choices & 16) != 0 ? zmc::Border::capped : zmc::Border::open;
   options.non_finite = (choices & 32) != 0 ? zmc::NonFinite::error : zmc::NonFinite::mask;
   one.mirrored = (choices & 64) != 0;
+  options.count_nonmanifold = (choices & 128) != 0;
   options.threads = 1 + bytes.below(3);
   one.instruction_set = static_cast<zmc::InstructionSet>(bytes.below(3));
   one.planes_per_slab = bytes.below(8);

@@ -19,9 +19,9 @@ def seeds():
     rng = random.Random(1)
     noise = [rng.randrange(256) for _ in range(200)]
     # Every option with every alphabet.
-    for alphabet, choices in itertools.product(range(4), range(0, 64, 3)):
+    for alphabet, choices in itertools.product(range(4), range(0, 256, 11)):
         kind = (alphabet * 5 + choices) % 7
-        yield "zmc", f"options_{alphabet}_{choices:02}", case(
+        yield "zmc", f"options_{alphabet}_{choices:03}", case(
             (5, 4, 6), kind, alphabet, choices, noise[:60], threads=choices % 3, isa=choices % 3, planes=choices % 8,
             layout=choices % 48, gap=choices % 3, axis=choices % 3)
     # Rows round the widths of words; a volume that threads share.
@@ -31,7 +31,7 @@ def seeds():
     yield "zmc", "shared_mask", case((60, 10, 10), 5, SPECIALS, 0, noise, threads=2, large=0)
     # Blocks of zeros between both signs, and zeros alone.
     blocks = [0b00000000] * 40 + [0b01010101] * 20 + [0b11111111] * 20
-    for choices in (0, 4, 8, 12, 16, 64):
+    for choices in (0, 4, 8, 12, 16, 64, 128, 144):
         yield "zmc", f"blocks_{choices}", case((7, 6, 8), 0, SIGNS, choices, blocks)
     yield "zmc", "zeros", case((6, 5, 4), 3, SIGNS, 0, [0])
     # Isovalues that the type cannot hold, and reals of any size.
