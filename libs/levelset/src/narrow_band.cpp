@@ -9,9 +9,9 @@
 namespace shape3d::levelset::detail {
 namespace {
 
-/// Distances are made right this many nodes away from the front; up to 8 steps of half a node lie
+/// Distances are made right this many nodes away from those beside the front, which moves by two nodes
 /// between two redistancings, in which it also carries what the front left behind.
-constexpr int kSpreadingPasses = 3;
+constexpr int kSpreadingPasses = 2;
 /// Redistancings over which the net displacement is looked at, too.
 constexpr int kWindow = 8;
 

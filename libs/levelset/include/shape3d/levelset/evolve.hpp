@@ -13,8 +13,8 @@ namespace shape3d::levelset {
 /// The κ of F_G = −εκ.
 enum class Curvature {
   mean,    ///< κ = κ1 + κ2: smooths everything, also vessels, which it shortens and cuts.
-  minimal  ///< κ = the smaller of κ1 and κ2: smooths surfaces but keeps tubes, whose one curvature
-           ///< is 0.
+  minimal  ///< κ = the one of κ1 and κ2 of smaller magnitude: smooths surfaces but keeps tubes, whose
+           ///< one curvature is 0.
 };
 
 /// What lies beyond the border of the volume.
@@ -27,8 +27,9 @@ enum class Border {
 /// Settings of evolve().
 struct EvolveOptions {
   int max_iterations = 1000;  ///< At least 1.
-  /// Stop when the mean displacement of the front per unit of time is less (mm over mm: 1 is the
-  /// speed of a front with F = 1). At least 0.
+  /// A tile is at rest when the mean displacement of the front in it, per unit of time, is at most
+  /// this (1: the speed of a front with F = 1), or when it has only gone to and fro over the last 8
+  /// redistancings. All tiles at rest: converged. At least 0.
   double tolerance = 0.01;
   /// Δt · (max |F| · √Σ h⁻² + 2 ε max k Σ h⁻²) of a step; in (0, 1).
   double cfl = 0.9;
@@ -57,7 +58,7 @@ struct FrontStatistics {
 /// Outcome of evolve().
 struct Evolution {
   /// ψ, mm: < 0 inside, 0 on the front, > 0 outside; a distance near the front, ±band elsewhere.
-  /// Its zeros are exact: nothing moves a node off the front.
+  /// A zero is a node that the front passes through exactly: none is moved to one side.
   Field psi;
   Status status = Status::iteration_limit;
   std::vector<FrontStatistics> iterations;
