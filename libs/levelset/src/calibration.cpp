@@ -241,7 +241,9 @@ Field boundary_distance(const ImageView& image, const IntensityModel& model, dou
   const int threads = detail::resolve_threads(requested_threads);
   detail::require_finite(image, threads);
   const auto reach = static_cast<float>(limit);
-  const int passes = static_cast<int>(std::min(std::ceil(limit / image.spacing.minCoeff()), 64.0));
+  // Distance spreads by one node a pass, along the diagonal of a cell by one in three.
+  const int passes = static_cast<int>(
+      std::min(std::ceil(std::sqrt(3.0) * limit / image.spacing.minCoeff()), 64.0));
   detail::BoundaryDistance distance(image, model, limit, passes, threads);
   distance.compute(lambda, model.levels(lambda));
   const detail::Lattice& lattice = distance.lattice();

@@ -9,8 +9,8 @@
 namespace shape3d::levelset::detail {
 namespace {
 
-/// Distances are made right this many nodes away from those beside the front, which moves by two nodes
-/// between two redistancings, in which it also carries what the front left behind.
+/// Distances are made right this many nodes away from those beside the front, which moves by two
+/// nodes between two redistancings, in which it also carries what the front left behind.
 constexpr int kSpreadingPasses = 2;
 /// Redistancings over which the net displacement is looked at, too.
 constexpr int kWindow = 8;
@@ -150,8 +150,9 @@ void NarrowBand::spread() {
 NarrowBand::Motion NarrowBand::redistance(double rest) {
   spread();
   const bool window_end = ++redistancings_ % kWindow == 0;
-  // The volume swept in a tile, over the area of the front in it: half a node's face for each node
-  // beside the front, for they lie on both sides.
+  // The volume swept in a tile, over the area of the front in it. A front of any direction crosses
+  // 3/2 lattice edges for each face of a node on average, and each of these has a node on both
+  // sides: one node beside the front stands for a third of a face.
   const double length = lattice_.grid.mean_spacing();
   Motion motion;
   double swept = 0.0;
@@ -159,7 +160,7 @@ NarrowBand::Motion NarrowBand::redistance(double rest) {
   for (std::size_t t = 0; t < moving.size(); ++t) {
     motion.nodes += beside_[t];
     if (is_active_[t] == 0) continue;
-    const double change = std::abs(volume_[t] - volume_before_[t]) * 2.0 * length;
+    const double change = std::abs(volume_[t] - volume_before_[t]) * 3.0 * length;
     volume_before_[t] = volume_[t];
     swept += change;
     if (beside_[t] == 0) continue;
@@ -167,7 +168,7 @@ NarrowBand::Motion NarrowBand::redistance(double rest) {
     motion.greatest = std::max(motion.greatest, displacement);
     moving[t] = displacement > rest ? 1 : 0;
     // To and fro about the same place, as where an object is one node thin, is rest.
-    if (window_end && std::abs(volume_[t] - anchor_[t]) * 2.0 * length <= rest * beside_[t])
+    if (window_end && std::abs(volume_[t] - anchor_[t]) * 3.0 * length <= rest * beside_[t])
       moving[t] = 0;
   }
   motion.mean = motion.nodes > 0 ? swept / static_cast<double>(motion.nodes) : 0.0;

@@ -98,7 +98,12 @@ TEST_CASE("smoothing keeps constants and ramps and lowers noise as it should",
   const Grid grid{{60, 60, 40}, {1, 1, 1}};
   const auto samples = sample<float>(grid, [&](double, double, double) { return normal(random); });
   const Field s = smooth(make_view(samples.data(), grid.dims), 1.0);
-  const double variance = s.square().mean();
+  double variance = 0.0;  // away from the border, where samples repeat
+  for (std::int64_t k = 3; k < 37; ++k)
+    for (std::int64_t j = 3; j < 57; ++j)
+      for (std::int64_t i = 3; i < 57; ++i)
+        variance +=
+            static_cast<double>(s[grid.index(i, j, k)]) * s[grid.index(i, j, k)] / (34.0 * 54 * 54);
   CHECK(std::sqrt(variance) ==
         Approx(100.0 * std::pow(2.0 * std::sqrt(3.14159265), -1.5)).epsilon(0.05));
   const auto ramp = sample<float>(grid, [](double x, double, double z) { return 2 * x - z; });

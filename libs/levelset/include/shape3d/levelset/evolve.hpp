@@ -13,8 +13,8 @@ namespace shape3d::levelset {
 /// The κ of F_G = −εκ.
 enum class Curvature {
   mean,    ///< κ = κ1 + κ2: smooths everything, also vessels, which it shortens and cuts.
-  minimal  ///< κ = the one of κ1 and κ2 of smaller magnitude: smooths surfaces but keeps tubes, whose
-           ///< one curvature is 0.
+  minimal  ///< κ = the one of κ1 and κ2 of smaller magnitude: smooths surfaces but keeps tubes,
+           ///< whose one curvature is 0.
 };
 
 /// What lies beyond the border of the volume.
@@ -36,8 +36,10 @@ struct EvolveOptions {
   double curvature = 0.0;  ///< ε, mm; 0: no curvature term.
   Curvature curvature_kind = Curvature::minimal;
   Border border = Border::outside;
-  int redistance_interval = 4;  ///< Steps between reinitialisations of ψ; 1 … 8.
-  int threads = 0;              ///< 0: all processors. The result does not depend on it.
+  /// ψ is made a distance again when the front may have gone as far as in this many steps without
+  /// curvature; 1 … 8.
+  int redistance_interval = 4;
+  int threads = 0;  ///< 0: all processors. The result does not depend on it.
   ProgressFunction progress;
 };
 
