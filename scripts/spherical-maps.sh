@@ -44,6 +44,7 @@ EOF
   "$build/benchmarks/shape3d_spherical_maps" "$@" "${meshes[@]}"
   echo
   echo "Seconds: one run, one thread, $(sed -n 's/^model name\s*: //p' /proc/cpuinfo | head -1), with other work on the machine${SHAPE3D_NOTE:+; $SHAPE3D_NOTE}.
+Flows run two at a time.
 Peak memory is that of a process that makes or reads the mesh and maps it twice."
 } >"$work"
 chmod 644 "$work"

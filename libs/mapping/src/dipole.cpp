@@ -70,18 +70,19 @@ bool three_vertices(const IntrinsicTriangulation& mesh, std::int32_t t) {
 
 }  // namespace
 
-std::vector<std::int32_t> pole_candidates(const IntrinsicTriangulation& mesh, std::size_t count) {
+std::vector<std::int32_t> pole_candidates(const IntrinsicTriangulation& mesh,
+                                          std::int32_t extremity, std::size_t count) {
   const Stars stars(mesh);
   // The eccentricity of a vertex, from below: its distance to extremities, each the farthest from
   // the ones before.
-  std::vector<double> eccentricity(mesh.vertex_count, 0), nearest(mesh.vertex_count, 0);
-  std::int32_t extremity = 0;
-  constexpr int kExtremities = 4;
-  for (int sweep = 0; sweep <= kExtremities; ++sweep) {
+  std::vector<double> eccentricity(mesh.vertex_count, 0);
+  std::vector<double> nearest(mesh.vertex_count, std::numeric_limits<double>::infinity());
+  constexpr int kExtremities = 5;
+  for (int end = 0; end < kExtremities; ++end) {
     const std::vector<double> distance = edge_distances(mesh, stars, extremity);
     for (std::size_t v = 0; v < distance.size(); ++v) {
-      if (sweep > 0) eccentricity[v] = std::max(eccentricity[v], distance[v]);
-      nearest[v] = sweep <= 1 ? distance[v] : std::min(nearest[v], distance[v]);
+      eccentricity[v] = std::max(eccentricity[v], distance[v]);
+      nearest[v] = std::min(nearest[v], distance[v]);
     }
     extremity = static_cast<std::int32_t>(std::max_element(nearest.begin(), nearest.end()) -
                                           nearest.begin());

@@ -11,8 +11,9 @@ namespace shape3d::mapping {
 
 /// Triangles of a triangulation in the order in which to try them as poles: well-shaped ones in the
 /// middle of the surface first, each far from those before it.
+/// @param extremity  A vertex at an end of the surface, from which other ends are looked for.
 [[nodiscard]] std::vector<std::int32_t> pole_candidates(const IntrinsicTriangulation& mesh,
-                                                        std::size_t count);
+                                                        std::int32_t extremity, std::size_t count);
 
 /// Discrete harmonic maps to the plane with a dipole at a triangle (Angenent, Haker, Tannenbaum,
 /// Kikinis 1999): L z = b, with one factorisation of the cotangent Laplacian for all poles.

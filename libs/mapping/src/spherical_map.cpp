@@ -136,7 +136,7 @@ class Mapper {
     if (!go_on(0.15)) return Status::cancelled;
 
     constexpr std::size_t kPoles = 4;
-    std::vector<std::int32_t> poles = pole_candidates(mesh, 1);
+    std::vector<std::int32_t> poles = pole_candidates(mesh, extremity(), 1);
     Points linear;
     while (map_.poles_tried < static_cast<int>(poles.size())) {
       const std::int32_t pole = poles[map_.poles_tried++];
@@ -152,7 +152,8 @@ class Mapper {
       map_.seconds.certificate += watch.lap();
       if (map_.certificate.bijective()) break;
       if (!go_on(0.15)) return Status::cancelled;
-      if (poles.size() == 1) poles = pole_candidates(mesh, kPoles);  // begins with the same one
+      if (poles.size() == 1)
+        poles = pole_candidates(mesh, extremity(), kPoles);  // begins with the same one
     }
     map_.linear_distortion = measure_distortion(V_, F_, linear);
     map_.seconds.distortion += watch.lap();
@@ -208,10 +209,20 @@ class Mapper {
     return minimise(V_, F_, twins_, settings, map_.S, summary);
   }
 
+  [[nodiscard]] Eigen::RowVector3d centroid() const {
+    return (areas_.transpose() * V_) / areas_.sum();
+  }
+
+  /// The vertex farthest from the centroid.
+  [[nodiscard]] std::int32_t extremity() const {
+    Eigen::Index farthest = 0;
+    (V_.rowwise() - centroid()).rowwise().squaredNorm().maxCoeff(&farthest);
+    return static_cast<std::int32_t>(farthest);
+  }
+
   /// Lays the map as the posed mesh lies.
   void turn(Points& S) const {
-    const Eigen::RowVector3d centroid = (areas_.transpose() * V_) / areas_.sum();
-    const Points posed = (V_.rowwise() - centroid) * options_.pose.transpose();
+    const Points posed = (V_.rowwise() - centroid()) * options_.pose.transpose();
     const Eigen::Matrix3d R = closest_rotation(S, posed, areas_);
     S = (S * R.transpose()).eval();
     S.rowwise().normalize();

@@ -1,5 +1,9 @@
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -118,6 +122,10 @@ TEST_CASE("options out of range are refused") {
   options.function_tolerance = 0;
   CHECK(refusal(mesh, options) ==
         "options.function_tolerance is 0.000000; expected a number between 0 and 1");
+  options = {};
+  options.area_balance = -1;
+  CHECK(refusal(mesh, options) ==
+        "options.area_balance is -1.000000; expected 0 or a positive number");
   options = {};
   options.pose(0, 0) = -1;
   CHECK(refusal(mesh, options) ==

@@ -311,7 +311,8 @@ TEST_CASE("a mesh turned inside out is mapped with its mirror image") {
   const SphericalMap map = tight(mesh);
   REQUIRE(map.status == Status::certified);
   CHECK(map.distortion.angle_change.max < 1e-3);
-  const Eigen::Matrix3d A = (map.S.transpose() * mesh.V) / (static_cast<double>(mesh.V.rows()) / 3.0);
+  const Eigen::Matrix3d A =
+      (map.S.transpose() * mesh.V) / (static_cast<double>(mesh.V.rows()) / 3.0);
   CHECK(A.determinant() == Approx(-1).margin(1e-3));
 }
 
@@ -323,6 +324,33 @@ TEST_CASE("the harmonic energy is minimised, too") {
   // Both converge to the conformal map: they differ by the error of the discretisation.
   CHECK(mean_square(harmonic.S, conformal.S) < 0.02);
   CHECK(harmonic.distortion.energy_over_area < conformal.distortion.energy_over_area * (1 + 1e-3));
+}
+
+TEST_CASE("balanced areas starve less of a capsule, at a distortion that is reported") {
+  const ClosedMesh mesh = capsule(12, 20);
+  const SphericalMap conformal = spherical_map(mesh.V, mesh.F);
+  REQUIRE(conformal.status == Status::certified);
+  CHECK_FALSE(conformal.balancing.used);
+  CHECK(conformal.distortion.starved_area_share > 0.2);
+  double starved = conformal.distortion.starved_area_share;
+  double sigma = conformal.distortion.sigma_ratio.mean;
+  for (const double weight : {0.01, 0.1, 1.0}) {
+    SphericalMapOptions options;
+    options.area_balance = weight;
+    const SphericalMap balanced = spherical_map(mesh.V, mesh.F, options);
+    INFO("weight = " << weight << ", starved " << balanced.distortion.starved_area_share
+                     << ", mean sigma ratio " << balanced.distortion.sigma_ratio.mean);
+    REQUIRE(balanced.status == Status::certified);
+    CHECK(balanced.balancing.used);
+    CHECK(balanced.balancing.final_cost < balanced.balancing.initial_cost);
+    CHECK(balanced.conformal_distortion.angle_change.mean ==
+          conformal.distortion.angle_change.mean);
+    CHECK(balanced.distortion.starved_area_share <= starved);
+    CHECK(balanced.distortion.sigma_ratio.mean > sigma);
+    starved = balanced.distortion.starved_area_share;
+    sigma = balanced.distortion.sigma_ratio.mean;
+  }
+  CHECK(starved == 0);
 }
 
 TEST_CASE("the same bytes every time, alone and beside others") {
