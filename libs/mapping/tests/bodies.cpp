@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 namespace shape3d::mapping::test {
 namespace {
 
