@@ -150,61 +150,82 @@ std::pair<Eigen::VectorXd, double> HoppeEnergy::best_attributes(
   return {value, (rest - value * share.transpose()).squaredNorm()};
 }
 
+std::vector<HoppeEnergy::Landing> HoppeEnergy::land_all(const std::vector<std::int32_t>& samples,
+                                                        const EdgeStar& star,
+                                                        const Eigen::Vector3d& x) const {
+  std::vector<Landing> landings;
+  landings.reserve(samples.size());
+  for (const std::int32_t s : samples)
+    landings.push_back(land(samples_[index(s)].position, star, x));
+  return landings;
+}
+
+// Least squares with fixed feet: Σ (b x + rest − p)² over samples, κ Σ (x − q)² over the ring.
+Eigen::Vector3d HoppeEnergy::best_position(const EdgeStar& star, const Around& around,
+                                           const std::vector<Landing>& landings,
+                                           const Eigen::Vector3d& start) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double weights = 0.0;
+  for (std::size_t s = 0; s < around.samples.size(); ++s) {
+    Eigen::Vector3d rest = samples_[index(around.samples[s])].position;
+    double b = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t v = star.corners[landings[s].triangle][i];
+      const double weight = landings[s].weights[static_cast<Eigen::Index>(i)];
+      if (moves(star, v)) {
+        b += weight;
+      } else {
+        rest -= weight * P_[index(v)];
+      }
+    }
+    sum += options_.distance_weight * b * rest;
+    weights += options_.distance_weight * b * b;
+  }
+  for (const std::int32_t v : around.ring) {
+    sum += around.kappa * P_[index(v)];
+    weights += around.kappa;
+  }
+  return weights > 0.0 ? Eigen::Vector3d(sum / weights) : start;
+}
+
+double HoppeEnergy::change(const EdgeStar& star, const Around& around,
+                           const std::vector<Landing>& landings, const Eigen::Vector3d& x) const {
+  double distance = 0.0, scalar = 0.0;
+  for (std::size_t s = 0; s < around.samples.size(); ++s) {
+    const Sample& sample = samples_[index(around.samples[s])];
+    distance += landings[s].squared_distance - sample.squared_distance;
+    scalar -= sample.scalar_error;
+  }
+  if (attributes_.size() > 0) scalar += best_attributes(star, around.samples, landings).second;
+  return inverse_square_ *
+             (options_.distance_weight * distance +
+              around.kappa * length_change(star, around.ring, x) +
+              options_.discontinuity_weight * sharp_.change(star.v0, star.v1, x, P_)) +
+         options_.scalar_weight * scalar;
+}
+
 std::optional<HoppeEnergy::Choice> HoppeEnergy::evaluate(const EdgeStar& star) const {
   if (star.corners.empty()) return std::nullopt;
   const SharpEdges::Rule rule = sharp_.rule(star.v0, star.v1, star.left, star.right);
   if (rule == SharpEdges::Rule::forbidden) return std::nullopt;
-  const std::vector<std::int32_t> samples = samples_of(star), ring = ring_of(star);
-  const double kappa = spring(star, samples.size());
-  const double distance_weight = options_.distance_weight;
-  Eigen::Vector3d x = rule == SharpEdges::Rule::stay_at_v0 ? P_[index(star.v0)]
-                      : rule == SharpEdges::Rule::stay_at_v1
-                          ? P_[index(star.v1)]
-                          : 0.5 * (P_[index(star.v0)] + P_[index(star.v1)]);
-  std::vector<Landing> landings(samples.size());
-  const auto land_all = [&] {
-    for (std::size_t s = 0; s < samples.size(); ++s)
-      landings[s] = land(samples_[index(samples[s])].position, star, x);
-  };
-  land_all();
-  if (rule == SharpEdges::Rule::free) {
-    // Least squares: Σ (b x + rest − p)² over samples, κ Σ (x − q)² over the ring.
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    double weights = 0.0;
-    for (std::size_t s = 0; s < samples.size(); ++s) {
-      Eigen::Vector3d rest = samples_[index(samples[s])].position;
-      double b = 0.0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::int32_t v = star.corners[landings[s].triangle][i];
-        const double weight = landings[s].weights[static_cast<Eigen::Index>(i)];
-        if (moves(star, v)) {
-          b += weight;
-        } else {
-          rest -= weight * P_[index(v)];
-        }
-      }
-      sum += distance_weight * b * rest;
-      weights += distance_weight * b * b;
-    }
-    for (const std::int32_t v : ring) {
-      sum += kappa * P_[index(v)];
-      weights += kappa;
-    }
-    if (weights > 0.0) {
-      x = sum / weights;
-      land_all();
-    }
+  Around around{samples_of(star), ring_of(star), 0.0};
+  around.kappa = spring(star, around.samples.size());
+  const Eigen::Vector3d &p0 = P_[index(star.v0)], &p1 = P_[index(star.v1)];
+  const Eigen::Vector3d middle = 0.5 * (p0 + p1);
+  if (rule == SharpEdges::Rule::free && sharp_.degree(star.v0) == 0) {
+    const auto feet = land_all(around.samples, star, middle);
+    const Eigen::Vector3d x = best_position(star, around, feet, middle);
+    return Choice{x, change(star, around, land_all(around.samples, star, x), x)};
   }
-  double distance = 0.0, scalar = 0.0;
-  for (std::size_t s = 0; s < samples.size(); ++s) {
-    distance += landings[s].squared_distance - samples_[index(samples[s])].squared_distance;
-    scalar -= samples_[index(samples[s])].scalar_error;
+  // On a curve of sharp edges: where it is allowed, the best of both ends and the middle.
+  std::optional<Choice> best;
+  for (const Eigen::Vector3d& x : {p0, middle, p1}) {
+    if (rule == SharpEdges::Rule::stay_at_v0 && x != p0) continue;
+    if (rule == SharpEdges::Rule::stay_at_v1 && x != p1) continue;
+    const double cost = change(star, around, land_all(around.samples, star, x), x);
+    if (!best || cost < best->cost) best = Choice{x, cost};
   }
-  if (attributes_.size() > 0) scalar += best_attributes(star, samples, landings).second;
-  const double lengths = kappa * length_change(star, ring, x);
-  const double curves = options_.discontinuity_weight * sharp_.change(star.v0, star.v1, x, P_);
-  return Choice{x, inverse_square_ * (distance_weight * distance + lengths + curves) +
-                       options_.scalar_weight * scalar};
+  return best;
 }
 
 void HoppeEnergy::collapse(const EdgeStar& star, std::int32_t removed, std::int32_t kept,

@@ -56,6 +56,20 @@ class HoppeEnergy {
     double squared_distance = 0.0;
   };
 
+  /// What a choice depends on besides the place.
+  struct Around {
+    std::vector<std::int32_t> samples, ring;
+    double kappa = 0.0;
+  };
+
+  [[nodiscard]] std::vector<Landing> land_all(const std::vector<std::int32_t>& samples,
+                                              const EdgeStar& star, const Eigen::Vector3d& x) const;
+  [[nodiscard]] Eigen::Vector3d best_position(const EdgeStar& star, const Around& around,
+                                              const std::vector<Landing>& landings,
+                                              const Eigen::Vector3d& start) const;
+  /// Of E by a collapse to x.
+  [[nodiscard]] double change(const EdgeStar& star, const Around& around,
+                              const std::vector<Landing>& landings, const Eigen::Vector3d& x) const;
   [[nodiscard]] Landing land(const Eigen::Vector3d& p, const EdgeStar& star,
                              const Eigen::Vector3d& x) const;
   [[nodiscard]] std::vector<std::int32_t> samples_of(const EdgeStar& star) const;
