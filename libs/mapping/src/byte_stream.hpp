@@ -29,6 +29,9 @@ class ByteWriter {
     byte(static_cast<std::uint8_t>(value));
   }
   void signed_number(std::int64_t value) { number(zigzag(value)); }
+  void half_word(std::uint32_t value) {
+    for (int i = 0; i < 4; ++i) byte(static_cast<std::uint8_t>(value >> (8 * i)));
+  }
   void word(std::uint64_t value) {
     for (int i = 0; i < 8; ++i) byte(static_cast<std::uint8_t>(value >> (8 * i)));
   }
@@ -73,6 +76,11 @@ class ByteReader {
   std::int64_t signed_number() {
     const std::uint64_t value = number();
     return static_cast<std::int64_t>((value >> 1) ^ (~(value & 1) + 1));
+  }
+  std::uint32_t half_word() {
+    std::uint32_t value = 0;
+    for (int i = 0; i < 4; ++i) value |= static_cast<std::uint32_t>(byte()) << (8 * i);
+    return value;
   }
   std::uint64_t word() {
     std::uint64_t value = 0;

@@ -21,6 +21,19 @@ double from_bits(std::uint64_t word) {
   return result;
 }
 
+std::uint32_t float_bits(double x) {
+  const auto single = static_cast<float>(x);
+  std::uint32_t result = 0;
+  std::memcpy(&result, &single, sizeof single);
+  return result;
+}
+
+double from_float_bits(std::uint32_t word) {
+  float single = 0.0F;
+  std::memcpy(&single, &word, sizeof single);
+  return static_cast<double>(single);
+}
+
 bool same(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b) {
   return bits(a[0]) == bits(b[0]) && bits(a[1]) == bits(b[1]) && bits(a[2]) == bits(b[2]);
 }
@@ -44,6 +57,7 @@ double PositionCoder::Grid::value(double number) const {
 }
 
 bool PositionCoder::Grid::holds(double x) const {
+  if (kind == Kind::single) return bits(static_cast<double>(static_cast<float>(x))) == bits(x);
   return kind != Kind::none && bits(value(nearest(x))) == bits(x);
 }
 
@@ -58,6 +72,8 @@ PositionCoder::PositionCoder(const Points& V, int lattice_exponent) {
     input_.set(Grid::Kind::decimal, digits);
     if (all(input_)) return;
   }
+  input_.set(Grid::Kind::single, 0);
+  if (all(input_)) return;
   // The power of two is that of the lowest bit of any coordinate.
   int lowest = 1 << 20;
   for (Eigen::Index i = 0; i < V.size(); ++i) {
@@ -78,7 +94,7 @@ PositionCoder::PositionCoder(ByteReader& header) {
   const std::int64_t lattice = header.signed_number();
   const std::uint8_t kind = header.byte();
   const std::int64_t input = header.signed_number();
-  const bool fits = std::abs(lattice) < 1200 && std::abs(input) < 1200 && kind <= 2 &&
+  const bool fits = std::abs(lattice) < 1200 && std::abs(input) < 1200 && kind <= 3 &&
                     (kind != 2 || (input >= 0 && input <= kDecimals));
   if (!fits) header.refuse("the form of its coordinates is unknown");
   lattice_.set(Grid::Kind::binary, static_cast<int>(lattice));
@@ -101,8 +117,10 @@ PositionCoder::Mode PositionCoder::mode_of(const Eigen::RowVector3d& p,
     if (!grid.holds(p[0]) || !grid.holds(p[1]) || !grid.holds(p[2])) continue;
     int size = 0;
     for (int i = 0; i < 3; ++i) {
-      size += ByteWriter::size_of(ByteWriter::zigzag(
-          static_cast<std::int64_t>(grid.nearest(p[i]) - grid.nearest(near[i]))));
+      size += grid.kind == Grid::Kind::single
+                  ? 4
+                  : ByteWriter::size_of(ByteWriter::zigzag(
+                        static_cast<std::int64_t>(grid.nearest(p[i]) - grid.nearest(near[i]))));
     }
     if (size < least) {
       least = size;
@@ -116,10 +134,12 @@ void PositionCoder::write(ByteWriter& out, Mode mode, const Eigen::RowVector3d& 
                           const Eigen::RowVector3d& near) const {
   if (mode == Mode::same) return;
   for (int i = 0; i < 3; ++i) {
+    const Grid& grid = grid_of(mode);
     if (mode == Mode::raw) {
       out.word(bits(p[i]));
+    } else if (grid.kind == Grid::Kind::single) {
+      out.half_word(float_bits(p[i]));
     } else {
-      const Grid& grid = grid_of(mode);
       out.signed_number(static_cast<std::int64_t>(grid.nearest(p[i]) - grid.nearest(near[i])));
     }
   }
@@ -130,10 +150,12 @@ Eigen::RowVector3d PositionCoder::read(ByteReader& in, Mode mode,
   Eigen::RowVector3d p = near;
   if (mode == Mode::same) return p;
   for (int i = 0; i < 3; ++i) {
+    const Grid& grid = grid_of(mode);
     if (mode == Mode::raw) {
       p[i] = from_bits(in.word());
+    } else if (grid.kind == Grid::Kind::single) {
+      p[i] = from_float_bits(in.half_word());
     } else {
-      const Grid& grid = grid_of(mode);
       p[i] = grid.value(grid.nearest(near[i]) + static_cast<double>(in.signed_number()));
     }
     if (!std::isfinite(p[i])) in.refuse("a coordinate is not finite");

@@ -22,6 +22,7 @@ class PositionCoder {
   PositionCoder(const Points& V, int lattice_exponent);
   explicit PositionCoder(ByteReader& header);
   void write_header(ByteWriter& out) const;
+  [[nodiscard]] int lattice_exponent() const { return lattice_.exponent; }
 
   /// The mode of the fewest bytes.
   [[nodiscard]] Mode mode_of(const Eigen::RowVector3d& p, const Eigen::RowVector3d& near) const;
@@ -33,7 +34,8 @@ class PositionCoder {
  private:
   /// Coordinates are whole numbers times 2 to the power of e, or over 10 to the power of e.
   struct Grid {
-    enum class Kind : std::uint8_t { none = 0, binary = 1, decimal = 2 } kind = Kind::none;
+    enum class Kind : std::uint8_t { none = 0, binary = 1, decimal = 2, single = 3 };
+    Kind kind = Kind::none;  ///< single: floats, written as such.
     int exponent = 0;
     double factor = 1.0;  ///< 2^e, 10^e.
 

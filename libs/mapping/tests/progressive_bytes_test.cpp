@@ -76,7 +76,7 @@ TEST_CASE("bytes hold all levels to the bit", "[mapping][progressive][bytes]") {
     CHECK(same_bits(again.V(), kind.V));
     CHECK(again.F() == body.F);
     check_equal(mesh, again);
-    CHECK(again.to_bytes() == bytes);
+    CHECK((again.to_bytes() == bytes));  // no print of thousands of bytes
     const double size = static_cast<double>(bytes.size()) / static_cast<double>(kind.V.rows());
     INFO(size << " bytes a vertex; coordinates and indices alone are 48");
     CHECK(size < kind.bytes_per_vertex);
@@ -85,8 +85,8 @@ TEST_CASE("bytes hold all levels to the bit", "[mapping][progressive][bytes]") {
 
 TEST_CASE("bytes of meshes with boundary, handles and pieces", "[mapping][progressive][bytes]") {
   const Body sheet = patch(14, [](double x, double y) { return 0.2 * std::cos(3 * x * y); });
-  Triangles holed(sheet.F.rows() - 3, 3);
-  holed << sheet.F.topRows(150), sheet.F.bottomRows(sheet.F.rows() - 153);
+  Triangles holed(sheet.F.rows() - 2, 3);
+  holed << sheet.F.topRows(150), sheet.F.bottomRows(sheet.F.rows() - 152);
   check_equal(ProgressiveMesh(sheet.V, holed), read(ProgressiveMesh(sheet.V, holed).to_bytes()));
   const Body ring = torus(2, 0.7, 30, 14);
   check_equal(ProgressiveMesh(ring.V, ring.F), read(ProgressiveMesh(ring.V, ring.F).to_bytes()));
@@ -111,7 +111,7 @@ TEST_CASE("the present level does not matter to the bytes", "[mapping][progressi
   ProgressiveMesh mesh(body.V, body.F);
   const Bytes bytes = mesh.to_bytes();
   mesh.set_triangle_count(100);
-  CHECK(mesh.to_bytes() == bytes);
+  CHECK((mesh.to_bytes() == bytes));
   CHECK(mesh.triangle_count() == 100);
   CHECK(read(bytes).triangle_count() == body.F.rows());
 }

@@ -109,7 +109,7 @@ class SHAPE3D_MAPPING_EXPORT ProgressiveMesh {
   [[nodiscard]] std::vector<std::int32_t> vertex_rows() const;
 
   /// All levels in a compact form: the coarsest level and the vertex splits. Coordinates that are
-  /// decimals of few digits or floats take about 3 bytes each, others 8.
+  /// decimals of few digits take about 3 bytes each, floats 4, others 8.
   [[nodiscard]] std::vector<std::byte> to_bytes() const;
   /// The mesh at its finest level, equal to the one that was written. The bytes need not be
   /// trusted.
