@@ -19,6 +19,7 @@ struct MapArguments {
   std::string energy = "conformal";
   bool linear = false, repair = false, wrap = false, align = false;
   std::int64_t max_triangles = 0;
+  double area_balance = 0.0;
   PictureArguments picture;
 };
 
@@ -35,8 +36,16 @@ Json to_json(const mapping::Distortion& distortion) {
           {"unmeasured_triangles", distortion.unmeasured_triangles}};
 }
 
+Json to_json(const mapping::MinimisationSummary& ceres) {
+  return {{"used", ceres.used},
+          {"initial_cost", ceres.initial_cost},
+          {"final_cost", ceres.final_cost},
+          {"iterations", ceres.iterations},
+          {"termination", ceres.termination},
+          {"message", ceres.message}};
+}
+
 Json to_json(const mapping::SphericalMap& map) {
-  const mapping::MinimisationSummary& ceres = map.minimisation;
   const mapping::StageSeconds& s = map.seconds;
   return {{"status", to_string(map.status)},
           {"certified", map.status == mapping::Status::certified},
@@ -48,13 +57,10 @@ Json to_json(const mapping::SphericalMap& map) {
             {"bijective", map.certificate.bijective()}}},
           {"distortion", to_json(map.distortion)},
           {"linear_distortion", to_json(map.linear_distortion)},
-          {"ceres",
-           {{"used", ceres.used},
-            {"initial_cost", ceres.initial_cost},
-            {"final_cost", ceres.final_cost},
-            {"iterations", ceres.iterations},
-            {"termination", ceres.termination},
-            {"message", ceres.message}}},
+          {"ceres", to_json(map.minimisation)},
+          {"conformal_distortion",
+           map.balancing.used ? to_json(map.conformal_distortion) : Json(nullptr)},
+          {"balancing", to_json(map.balancing)},
           {"delaunay_flips", map.delaunay_flips},
           {"untangled_triangles", map.untangled_triangles},
           {"poles_tried", map.poles_tried},
@@ -214,6 +220,12 @@ std::string to_lines(const mapping::SphericalMap& map, const MapArguments& argum
                               map.minimisation.termination) +
             line("linear angle change", "mean " + degrees(map.linear_distortion.angle_change.mean));
   }
+  if (map.balancing.used) {
+    text += line("before balancing",
+                 "angle change mean " + degrees(map.conformal_distortion.angle_change.mean) +
+                     ", starved area " +
+                     rounded(100 * map.conformal_distortion.starved_area_share) + " %");
+  }
   text += line("seconds", rounded(map.seconds.total));
   return text + line("output", arguments.output);
 }
@@ -226,6 +238,7 @@ void run_map(const MapArguments& arguments, const Settings& settings) {
     throw UsageError("--energy " + arguments.energy + ": expected conformal or harmonic");
   }
   options.linear = arguments.linear;
+  options.area_balance = arguments.area_balance;
   MeshOutput output("-o", arguments.output);
   std::optional<MeshOutput> prepared;
   if (!arguments.prepared.empty()) prepared.emplace("--mesh", arguments.prepared);
@@ -318,6 +331,12 @@ void add_map(CLI::App& app, Settings& settings) {
                    "Simplify a larger mesh to this number of triangles first")
       ->check(CLI::Range(std::int64_t{4}, std::int64_t{2147483647}))
       ->type_name("N");
+  command
+      ->add_option("--area-balance", arguments->area_balance,
+                   "Give long extrusions more of the sphere at the cost of angles: a weight, for "
+                   "example 0.1 (default 0)")
+      ->check(CLI::Range(0.0, 1e6))
+      ->type_name("W");
   command
       ->add_option("--mesh", arguments->prepared,
                    "The mesh that was mapped: repaired, wrapped, simplified, aligned")
