@@ -13,8 +13,8 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 
+#include "bumpy_body.hpp"
 #include "common/mesh_io.hpp"
-#include "common/output_file.hpp"
 #include "markdown_table.hpp"
 #include "shape3d/descriptors/descriptor.hpp"
 #include "shape3d/descriptors/hsh_sampling.hpp"
@@ -149,26 +149,35 @@ std::string dissertation_table(const Shape& shape) {
   return table.text();
 }
 
-/// Vectors of coarser meshes of one shape against that of the finest.
+/// Vectors of coarser meshes of a shape against that of its finest; meshes of a shape share the
+/// part of their names before the first '_'.
 std::string resolution_table(const std::vector<Shape>& shapes) {
   MarkdownTable table({"mesh", "triangles", "HSH 45 distance %", "HSH 45 area %",
                        "HSH 496 distance %", "CSM 5×9 distance %", "D2 % (L1)"});
   const char* const specs[] = {"hsh:fill=distance", "hsh:fill=area", "hsh:K=30,fill=distance",
                                "csm:R=5,K=8,fill=distance"};
-  const Shape& finest = *std::max_element(
-      shapes.begin(), shapes.end(),
-      [](const Shape& a, const Shape& b) { return a.mesh.F.rows() < b.mesh.F.rows(); });
+  const auto family = [](const Shape& shape) { return shape.name.substr(0, shape.name.find('_')); };
   const Descriptor d2 = Descriptor::parse("d2");
   for (const Shape& shape : shapes) {
+    const Shape* finest = &shape;
+    for (const Shape& other : shapes) {
+      if (family(other) == family(shape) && other.mesh.F.rows() > finest->mesh.F.rows()) {
+        finest = &other;
+      }
+    }
     std::vector<std::string> row{shape.name, std::to_string(shape.mesh.F.rows())};
+    const apps::Mesh& fine = finest->mesh;
     for (const char* const spec : specs) {
       const Descriptor descriptor = Descriptor::parse(spec);
-      row.push_back(percent(change(descriptor.compute(finest.mesh.V, finest.mesh.F),
-                                   descriptor.compute(shape.mesh.V, shape.mesh.F))));
+      row.push_back(finest == &shape
+                        ? "finest"
+                        : percent(change(descriptor.compute(fine.V, fine.F),
+                                         descriptor.compute(shape.mesh.V, shape.mesh.F))));
     }
-    row.push_back(
-        percent((d2.compute(finest.mesh.V, finest.mesh.F) - d2.compute(shape.mesh.V, shape.mesh.F))
-                    .lpNorm<1>()));
+    row.push_back(finest == &shape ? "finest"
+                                   : percent((d2.compute(fine.V, fine.F) -
+                                              d2.compute(shape.mesh.V, shape.mesh.F))
+                                                 .lpNorm<1>()));
     table.add(row);
   }
   return table.text();
@@ -238,16 +247,24 @@ int run(int argc, char** argv) {
       "Measures how descriptors change with pose, mesh resolution and inner rotation.");
   std::vector<std::string> shapes, resolutions;
   program.add_option("--shapes", shapes, "Meshes that are turned")->required();
-  program.add_option("--resolutions", resolutions, "Meshes of one shape");
+  program.add_option("--resolutions", resolutions,
+                     "Meshes of several resolutions: <shape>_<resolution>");
   CLI11_PARSE(program, argc, argv);
   const std::vector<Shape> turned = read_shapes(shapes);
   std::cout << "## Rotation\n\n"
             << rotation_table(turned) << "\n## Tables 5.1 and 5.2\n\n"
             << "Shape: " << turned.front().name << ".\n\n"
             << dissertation_table(turned.front());
-  if (!resolutions.empty()) {
-    std::cout << "\n## Mesh resolution\n\n" << resolution_table(read_shapes(resolutions));
+  std::vector<Shape> meshes = read_shapes(resolutions);
+  for (const int triangles : {1000, 3000, 10000, 30000, 100000}) {
+    const Body body = bumpy(rows_for(triangles));
+    Shape shape;
+    shape.name = "generated_" + std::to_string(triangles);
+    shape.mesh.V = body.V;
+    shape.mesh.F = body.F;
+    meshes.push_back(shape);
   }
+  std::cout << "\n## Mesh resolution\n\n" << resolution_table(meshes);
   std::cout << "\n## Internal rotation\n\n" << internal_rotation_table();
   return EXIT_SUCCESS;
 }

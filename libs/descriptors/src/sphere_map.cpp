@@ -26,7 +26,7 @@ double equal_volume_angle(double rho) {
   if (target > 0.5 * kPi) {  // from the other pole, where the equation is better conditioned
     const double rest = kPi * (1.0 - rho) * (1.0 + rho + rho * rho);
     double low = 0.0, high = 0.5 * kPi, angle = std::min(high, std::cbrt(1.5 * rest));
-    for (int step = 0; step < 60 && high - low > 1e-16; ++step) {
+    for (int step = 0; step < 200 && high - low > 1e-16 * high; ++step) {
       const double excess = twice_measure(angle) - rest;
       (excess > 0.0 ? high : low) = angle;
       const double slope = 2.0 * std::sin(angle) * std::sin(angle);
@@ -38,7 +38,7 @@ double equal_volume_angle(double rho) {
     return kPi - angle;
   }
   double low = 0.0, high = 0.5 * kPi + 1e-9, angle = std::min(high, std::cbrt(1.5 * target));
-  for (int step = 0; step < 60 && high - low > 1e-17; ++step) {
+  for (int step = 0; step < 200 && high - low > 1e-16 * high; ++step) {
     const double excess = twice_measure(angle) - target;
     (excess > 0.0 ? high : low) = angle;
     const double slope = 2.0 * std::sin(angle) * std::sin(angle);
