@@ -68,7 +68,8 @@ void visit_voxels(const GridTriangle& t, int side, Set&& set) {
     extents += range[axis][0] != range[axis][1] ? 1 : 0;
   }
   std::array<int, 3> voxel{};
-  if (extents <= 1) {
+  const bool within = (low.array() >= 0.0).all() && (high.array() <= side).all();
+  if (extents <= 1 && within) {
     // A row of voxels: the triangle lies in the row and reaches across all of its range.
     for (voxel[2] = range[2][0]; voxel[2] <= range[2][1]; ++voxel[2]) {
       for (voxel[1] = range[1][0]; voxel[1] <= range[1][1]; ++voxel[1]) {

@@ -115,6 +115,7 @@ TEST_CASE("rotating a function changes neither energies nor Gram invariants",
     CHECK((g.values - f.values).norm() > 0.5 * f.values.norm());
     CHECK(relative(hsh_energies(g), hsh_energies(f)) < 1e-12);
     CHECK(relative(gram_invariants(g), gram_invariants(f)) < 1e-12);
+    CHECK(relative(gram_roots(g), gram_roots(f)) < 1e-6);  // roots of eigenvalues that are 0
   }
 }
 
@@ -138,6 +139,29 @@ TEST_CASE("Gram invariants hold the energies on their diagonal", "[descriptors][
       }
     }
   }
+}
+
+TEST_CASE("Gram roots squared are the Gram matrices", "[descriptors][property]") {
+  // Their squares have the trace of G, so the vector has the norm of the function; and they turn
+  // with nothing, as a function of G alone.
+  const HshCoefficients f = random_coefficients(6, 4);
+  const Eigen::VectorXd roots = gram_roots(f), gram = gram_invariants(f);
+  REQUIRE(roots.size() == static_cast<Eigen::Index>(gram_count(6)));
+  CHECK(roots.norm() == Approx(f.values.norm()).epsilon(1e-12));
+  Eigen::Index from = 0;
+  for (int l = 0; l <= 6; ++l) {
+    const Eigen::Index n = 7 - l;
+    Eigen::MatrixXd root(n, n), square(n, n);
+    for (Eigen::Index a = 0; a < n; ++a) {
+      for (Eigen::Index b = a; b < n; ++b, ++from) {
+        root(a, b) = root(b, a) = a == b ? roots[from] : roots[from] / std::sqrt(2.0);
+        square(a, b) = square(b, a) = gram[from];
+      }
+    }
+    CHECK((root * root - square).norm() < 1e-11 * square.norm());
+  }
+  CHECK(roots[roots.size() - 1] ==
+        Approx(hsh_energies(f)[static_cast<Eigen::Index>(hsh_pair_index(6, 6))]));
 }
 
 TEST_CASE("the sum over voxels is the sum of the basis functions", "[descriptors][analytic]") {
@@ -321,7 +345,7 @@ TEST_CASE("reconstruction approaches the voxels as K grows", "[descriptors][anal
   };
   const double coarse = error(32), fine = error(128);
   INFO("error " << coarse << " at 32, " << fine << " at 128");
-  CHECK(coarse < 0.05);
+  CHECK(coarse < 0.1);
   CHECK(fine < coarse / 3);
   const Voxels band = reconstruct(truth, 64);
   CHECK(hsh_residual(truth, band) < 1e-6);  // voxels are single precision
