@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <variant>
+
+#include "shape3d/descriptors/csm.hpp"
+#include "shape3d/descriptors/hsh.hpp"
+#include "shape3d/descriptors/shape_distribution.hpp"
+#include "shape3d/descriptors/voxelize.hpp"
+
+namespace shape3d::descriptors {
+
+/// Pose alignment before the descriptor is computed. A record: whoever composes the two libraries
+/// aligns the mesh and then calls Descriptor::compute().
+enum class Align {
+  none,
+  cpca  ///< Continuous principal component analysis.
+};
+
+/// Which numbers of the HSH coefficients are the vector.
+enum class HshInvariants { energies, gram };
+
+/// `hsh`: hyperspherical harmonics (section 5.2).
+struct HshParameters {
+  HshOptions transform;
+  VoxelizeOptions voxels;
+  HshInvariants invariants = HshInvariants::energies;
+  bool unit = false;   ///< Divide the vector by its L2 norm.
+  double power = 1.0;  ///< Then each number x becomes sign(x) |x|^power; 0.1 … 1.
+};
+
+/// `csm`: concentric spheres model (section 5.1.2).
+struct CsmParameters {
+  CsmOptions spheres;
+  VoxelizeOptions voxels;
+  bool unit = false;   ///< As of HshParameters.
+  double power = 1.0;  ///< As of HshParameters.
+};
+
+/// `d2`: shape distribution of distances.
+struct D2Parameters {
+  D2Options options;
+};
+
+/// `egi`: power spectrum of the extended Gaussian image.
+struct EgiParameters {
+  int K = 16;
+};
+
+/// `random`: baseline.
+struct RandomParameters {
+  int length = 45;
+  std::uint64_t seed = 1;
+};
+
+/// Which spherical image.
+enum class SphericalImageKind { sni, sci, sgi };
+
+/// `sni`, `sci`, `sgi`: spherical harmonics of a spherical image (section 4.4).
+struct SphericalParameters {
+  SphericalImageKind image = SphericalImageKind::sni;
+  int K = 16;
+  int size = 64;  ///< Rows of the image; it has twice as many columns.
+};
+
+using Parameters = std::variant<HshParameters, CsmParameters, D2Parameters, EgiParameters,
+                                RandomParameters, SphericalParameters>;
+
+}  // namespace shape3d::descriptors
