@@ -223,7 +223,7 @@ TEST_CASE("spherical harmonics refuse what they cannot do", "[descriptors][contr
   const auto refuses = [](auto&& call, const std::string& sentence) {
     CHECK_THROWS_MATCHES(call(), std::invalid_argument, Message(sentence));
   };
-  refuses([] { image_weights(7); }, "size is 7, expected an even number of rows");
+  refuses([] { return image_weights(7); }, "size is 7, expected an even number of rows");
   CHECK_THROWS_WITH(image_weights(2), Contains("size is 2, expected 4 "));
   CHECK_THROWS_WITH(image_weights(1026), Contains("size is 1026"));
   refuses([] { ShTransform(64, 32); }, "K is 32, expected 0 … 31, the bandwidth of 64 rows");
@@ -233,24 +233,26 @@ TEST_CASE("spherical harmonics refuse what they cannot do", "[descriptors][contr
   refuses([] { ShTransform(512, 16, ShRoute::svd); },
           "directions has 524288 rows, expected at most 232209 for K = 16");
   const ShTransform transform(8, 2);
-  refuses([&] { transform(Eigen::MatrixXd::Zero(127, 1)); }, "samples has 127 rows, expected 128");
+  refuses([&] { return transform(Eigen::MatrixXd::Zero(127, 1)); },
+          "samples has 127 rows, expected 128");
   Eigen::MatrixXd samples = Eigen::MatrixXd::Zero(128, 2);
   samples(5, 1) = std::numeric_limits<double>::quiet_NaN();
-  refuses([&] { transform(samples); }, "samples(5, 1) is nan, expected finite numbers");
-  refuses([] { sh_norms(Eigen::MatrixXcd::Zero(8, 1)); },
+  refuses([&] { return transform(samples); }, "samples(5, 1) is nan, expected finite numbers");
+  refuses([] { return sh_norms(Eigen::MatrixXcd::Zero(8, 1)); },
           "coefficients has 8 rows, expected (K + 1)², a square");
-  refuses([] { sh_component_gram(Eigen::MatrixXcd::Zero(9, 2)); },
+  refuses([] { return sh_component_gram(Eigen::MatrixXcd::Zero(9, 2)); },
           "coefficients has 2 components, expected the 3 of a vector field");
-  refuses([] { sh_reconstruct(Eigen::MatrixXcd::Zero(36, 1), 10); },
+  refuses([] { return sh_reconstruct(Eigen::MatrixXcd::Zero(36, 1), 10); },
           "K is 5, expected 0 … 4, the bandwidth of 10 rows");
-  refuses([] { sh_residual(Eigen::MatrixXcd::Zero(9, 2), Eigen::MatrixXd::Zero(128, 1), 8); },
-          "samples has 1 components, expected those of coefficients, 2");
+  refuses(
+      [] { return sh_residual(Eigen::MatrixXcd::Zero(9, 2), Eigen::MatrixXd::Zero(128, 1), 8); },
+      "samples has 1 components, expected those of coefficients, 2");
   Points directions = random_directions(10, 1);
   refuses([&] { ShFit(Points(0, 3), 1); }, "directions has no rows");
   directions.row(4) *= 2;
   refuses([&] { ShFit(directions, 1); },
           "directions: row 4 has the length 2, expected unit vectors");
-  refuses([&] { spherical_harmonics(directions, 1); },
+  refuses([&] { return spherical_harmonics(directions, 1); },
           "directions: row 4 has the length 2, expected unit vectors");
   CHECK_THROWS_WITH(spherical_harmonics(random_directions(3, 1), 1001), Contains("K is 1001"));
 }
