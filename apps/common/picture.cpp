@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
 #include <vtkCamera.h>
 #include <vtkCleanPolyData.h>
 #include <vtkFloatArray.h>
-#include <vtkImageData.h>
 #include <vtkLightKit.h>
 #include <vtkNew.h>
 #include <vtkOpenGLRenderer.h>
-#include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -24,13 +21,10 @@
 #include <vtkRenderStepsPass.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
-#include <vtkSMPTools.h>
 #include <vtkSSAOPass.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkWindowToImageFilter.h>
 #include <Eigen/Geometry>
 
-#include "child_process.hpp"
+#include "offscreen.hpp"
 #include "vtk_mesh.hpp"
 
 namespace shape3d::apps {
@@ -177,32 +171,7 @@ void place_camera(vtkRenderer* renderer, View view, double aspect) {
   renderer->ResetCameraClippingRange();
 }
 
-// Mean of kSamples × kSamples pixels.
-vtkSmartPointer<vtkImageData> shrink(vtkImageData* large, int width, int height) {
-  auto small = vtkSmartPointer<vtkImageData>::New();
-  small->SetDimensions(width, height, 1);
-  small->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  const auto* from = static_cast<const unsigned char*>(large->GetScalarPointer());
-  auto* to = static_cast<unsigned char*>(small->GetScalarPointer());
-  const int stride = 3 * kSamples * width;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < 3 * width; ++x) {
-      int sum = 0;
-      for (int sy = 0; sy < kSamples; ++sy) {
-        for (int sx = 0; sx < kSamples; ++sx) {
-          sum += from[static_cast<std::ptrdiff_t>(kSamples * y + sy) * stride +
-                      3 * (kSamples * (x / 3) + sx) + x % 3];
-        }
-      }
-      *to++ = static_cast<unsigned char>((sum + kSamples * kSamples / 2) / (kSamples * kSamples));
-    }
-  }
-  return small;
-}
-
 std::string draw(const std::vector<SceneMesh>& meshes, const PictureOptions& options) {
-  vtkSMPTools::Initialize(1);
-  vtkSMPTools::SetBackend("Sequential");
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(options.background[0], options.background[1], options.background[2]);
   bool opaque = true;
@@ -246,26 +215,7 @@ std::string draw(const std::vector<SceneMesh>& meshes, const PictureOptions& opt
     renderer->SetOcclusionRatio(0.0);
   }
   window->Render();
-  vtkNew<vtkWindowToImageFilter> capture;
-  capture->SetInput(window);
-  capture->ReadFrontBufferOff();
-  capture->SetInputBufferTypeToRGB();
-  capture->Update();
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(shrink(capture->GetOutput(), options.width, options.height));
-  writer->WriteToMemoryOn();
-  writer->Write();
-  vtkUnsignedCharArray* bytes = writer->GetResult();
-  return {reinterpret_cast<const char*>(bytes->GetPointer(0)),
-          static_cast<std::size_t>(bytes->GetNumberOfValues())};
-}
-
-ChildResult draw_on(const std::string& display, const std::vector<SceneMesh>& meshes,
-                    const PictureOptions& options) {
-  return run_in_child([&] {
-    setenv("DISPLAY", display.c_str(), 1);
-    return draw(meshes, options);
-  });
+  return png_of(window, kSamples);
 }
 
 }  // namespace
@@ -293,15 +243,7 @@ std::string draw_png(const std::vector<SceneMesh>& meshes, const PictureOptions&
     return item.mesh.triangle_count > 0;
   });
   if (!anything) throw PictureError("there is no triangle to draw");
-  if (const char* display = std::getenv("DISPLAY");
-      display != nullptr && *display != '\0' && !options.private_display) {
-    ChildResult result = draw_on(display, meshes, options);
-    if (result.ok) return std::move(result.output);
-  }
-  const PrivateDisplay display;
-  ChildResult result = draw_on(display.name(), meshes, options);
-  if (!result.ok) throw PictureError("the picture could not be drawn: " + result.error);
-  return std::move(result.output);
+  return draw_offscreen([&] { return draw(meshes, options); }, options.private_display);
 }
 
 }  // namespace shape3d::apps

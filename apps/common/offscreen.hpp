@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+class vtkRenderWindow;
+
+namespace shape3d::apps {
+
+/// Runs a function that opens a VTK window in a child process: on the display of the environment
+/// variable DISPLAY if that is set and works, on a private Xvfb otherwise. A window that cannot be
+/// opened ends the child, not this process.
+///
+/// Only the calling thread exists in the child; VTK's own threads are off there.
+/// @param private_display  never the display of the environment.
+/// @return what `draw` returned.
+/// @throws PictureError  no display works, or `draw` threw.
+[[nodiscard]] std::string draw_offscreen(const std::function<std::string()>& draw,
+                                         bool private_display = false);
+
+/// The rendered window as a PNG.
+/// @param samples  A pixel of the PNG is the mean of samples × samples pixels of the window, whose
+///                 sides are multiples of it.
+[[nodiscard]] std::string png_of(vtkRenderWindow* window, int samples = 1);
+
+}  // namespace shape3d::apps
