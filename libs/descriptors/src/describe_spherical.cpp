@@ -57,8 +57,7 @@ Eigen::Index length(const SphericalParameters& parameters) {
 Eigen::VectorXd describe(const SphericalParameters& parameters, const ShTransform& transform,
                          const Eigen::Ref<const Points>& V, const Eigen::Ref<const Triangles>& F,
                          const Eigen::Ref<const Points>& S, int threads) {
-  const Eigen::MatrixXcd coefficients =
-      transform(image_of(parameters, V, F, S, threads).samples);
+  const Eigen::MatrixXcd coefficients = transform(image_of(parameters, V, F, S, threads).samples);
   switch (parameters.form) {
     case SphericalForm::amplitudes:
       return sh_amplitudes(coefficients.leftCols(components_of(parameters))).reshaped();

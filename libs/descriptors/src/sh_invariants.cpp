@@ -1,14 +1,22 @@
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 
 #include "sh_checks.hpp"
 #include "shape3d/descriptors/sh.hpp"
 
 namespace shape3d::descriptors {
+namespace {
+
+void check_three_components(const Eigen::Ref<const Eigen::MatrixXcd>& coefficients) {
+  if (coefficients.cols() != 3) {
+    throw std::invalid_argument("coefficients has " + std::to_string(coefficients.cols()) +
+                                " components, expected the 3 of a vector field");
+  }
+}
+
+}  // namespace
 
 Eigen::MatrixXd sh_amplitudes(const Eigen::Ref<const Eigen::MatrixXcd>& coefficients) {
   const int K = detail::degree_of(coefficients);
@@ -33,10 +41,7 @@ Eigen::VectorXd sh_norms(const Eigen::Ref<const Eigen::MatrixXcd>& coefficients)
 
 Eigen::MatrixXd sh_component_gram(const Eigen::Ref<const Eigen::MatrixXcd>& coefficients) {
   const int K = detail::degree_of(coefficients);
-  if (coefficients.cols() != 3) {
-    throw std::invalid_argument("coefficients has " + std::to_string(coefficients.cols()) +
-                                " components, expected the 3 of a vector field");
-  }
+  check_three_components(coefficients);
   Eigen::MatrixXd gram(3 * (Eigen::Index{K} + 1), 3);
   for (int l = 0; l <= K; ++l) {
     const auto block = coefficients.middleRows(sh_index(l, -l), 2 * l + 1);
@@ -46,13 +51,15 @@ Eigen::MatrixXd sh_component_gram(const Eigen::Ref<const Eigen::MatrixXcd>& coef
 }
 
 Eigen::VectorXd sh_component_roots(const Eigen::Ref<const Eigen::MatrixXcd>& coefficients) {
-  const Eigen::MatrixXd gram = sh_component_gram(coefficients);
-  Eigen::VectorXd roots(gram.rows());
-  for (Eigen::Index row = 0; row < gram.rows(); row += 3) {
-    const Eigen::Matrix3d G = gram.middleRows(row, 3);
-    const Eigen::Vector3d values =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(G, Eigen::EigenvaluesOnly).eigenvalues();
-    for (int i = 0; i < 3; ++i) roots[row + i] = std::sqrt(std::max(values[2 - i], 0.0));
+  const int K = detail::degree_of(coefficients);
+  check_three_components(coefficients);
+  // Singular values of the coefficients themselves: roots of the eigenvalues of G_l would have half
+  // of the digits where they are small.
+  Eigen::VectorXd roots = Eigen::VectorXd::Zero(3 * (Eigen::Index{K} + 1));
+  for (int l = 0; l <= K; ++l) {
+    const Eigen::MatrixXcd block = coefficients.middleRows(sh_index(l, -l), 2 * l + 1);
+    const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXcd>(block).singularValues();
+    roots.segment(3 * l, values.size()) = values;
   }
   return roots;
 }

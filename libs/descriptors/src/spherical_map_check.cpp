@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -76,7 +77,8 @@ int check_spherical_map(const Eigen::Ref<const Points>& V, const Eigen::Ref<cons
   }
   const double times = std::abs(cover) / (4.0 * detail::kPi);
   if (std::abs(times - 1.0) > 1e-6) {
-    throw std::invalid_argument("S covers the sphere " + detail::number(times) +
+    throw std::invalid_argument("S covers the sphere " +
+                                detail::number(std::round(1e6 * times) / 1e6) +
                                 " times, expected once");
   }
   if (orientation < 0 && signed_volume(V, F) >= 0.0) {

@@ -242,7 +242,7 @@ TEST_CASE("spherical harmonics refuse what they cannot do", "[descriptors][contr
   refuses([] { ShTransform(63, 3); }, "size is 63, expected an even number of rows");
   CHECK_THROWS_WITH(ShTransform(128, 33, ShRoute::svd), Contains("K is 33, expected 0 "));
   refuses([] { ShTransform(512, 16, ShRoute::svd); },
-          "directions has 524288 rows, expected at most 232209 for K = 16");
+          "directions has 524288 rows, expected at most 232210 for K = 16");
   const ShTransform transform(8, 2);
   refuses([&] { return transform(Eigen::MatrixXd::Zero(127, 1)); },
           "samples has 127 rows, expected 128");
