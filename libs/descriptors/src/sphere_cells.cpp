@@ -67,11 +67,9 @@ void SphereCells::add(const Eigen::Vector3d (&corners)[3], const double* value) 
     if (sweep == 0.0) continue;
     // Edges are integrated in one direction only, so that the two triangles at one agree.
     if (before(A, B)) {
-      add_edge(A, B, std::atan2(A.y(), A.x()), sweep, value);
+      add_edge(A, B, sweep, 1.0, value);
     } else {
-      std::vector<double> negative(value, value + components_);
-      for (double& x : negative) x = -x;
-      add_edge(B, A, std::atan2(B.y(), B.x()), -sweep, negative.data());
+      add_edge(B, A, -sweep, -1.0, value);
     }
   }
   if (whole < -kPi) {
@@ -79,16 +77,17 @@ void SphereCells::add(const Eigen::Vector3d (&corners)[3], const double* value) 
   }
 }
 
-void SphereCells::add_edge(const Eigen::Vector3d& A, const Eigen::Vector3d& B, double phi,
-                           double sweep, const double* value) {
+void SphereCells::add_edge(const Eigen::Vector3d& A, const Eigen::Vector3d& B, double sweep,
+                           double side, const double* value) {
   // On the circle cot θ = (g/h) cos u with u = φ − φ0, g² + h² = 1, h > 0.
   const Eigen::Vector3d N = plane_of(A, B);
   const double flat = std::hypot(N.x(), N.y()), length = std::hypot(flat, N.z());
   if (length == 0.0) return;
   const double g = flat / length, h = std::abs(N.z()) / length;
   const double phi0 = N.z() > 0.0 ? std::atan2(-N.y(), -N.x()) : std::atan2(N.y(), N.x());
-  const double west = sweep > 0.0 ? phi : phi + sweep, east = sweep > 0.0 ? phi + sweep : phi;
-  const double sign = sweep > 0.0 ? 1.0 : -1.0;
+  const double phi = std::atan2(A.y(), A.x());
+  const double west = std::min(phi, phi + sweep), east = std::max(phi, phi + sweep);
+  const double sign = sweep > 0.0 ? side : -side;
   const double step = kPi / size_;
 
   double from = west;

@@ -30,7 +30,7 @@ class SphereCells {
   [[nodiscard]] Eigen::MatrixXd means() const;
 
  private:
-  void add_edge(const Eigen::Vector3d& A, const Eigen::Vector3d& B, double phi, double sweep,
+  void add_edge(const Eigen::Vector3d& A, const Eigen::Vector3d& B, double sweep, double side,
                 const double* value);
   void add_arc(int column, double u0, double u1, double g, double h, double sign,
                const double* value);

@@ -42,16 +42,18 @@ void add_divided(const Drawing& drawing, Eigen::Index t, SphereCells& cells) {
   const auto corner = [&](int i, int j) {
     return off_axis((A + (B - A) * (double(i) / s) + (C - A) * (double(j) / s)).normalized());
   };
-  const auto value = [&](double i, double j) -> Eigen::VectorXd {
-    return a + (b - a) * (i / s) + (c - a) * (j / s);
+  Eigen::VectorXd value(a.size());
+  const auto value_at = [&](double i, double j) {
+    value = a + (b - a) * (i / s) + (c - a) * (j / s);
+    return value.data();
   };
   for (int j = 0; j < s; ++j) {
     for (int i = 0; i + j < s; ++i) {
       cells.add({corner(i, j), corner(i + 1, j), corner(i, j + 1)},
-                value(i + 1.0 / 3.0, j + 1.0 / 3.0).eval().data());
+                value_at(i + 1.0 / 3.0, j + 1.0 / 3.0));
       if (i + j + 1 < s) {
         cells.add({corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)},
-                  value(i + 2.0 / 3.0, j + 2.0 / 3.0).eval().data());
+                  value_at(i + 2.0 / 3.0, j + 2.0 / 3.0));
       }
     }
   }

@@ -49,11 +49,13 @@ SHAPE3D_DESCRIPTORS_EXPORT int check_spherical_map(const Eigen::Ref<const Points
 ///
 /// With P in the spherical triangle ABC of S, its place (u, v, w) is that of the gnomonic
 /// projection (4.8) and its value u a + v b + w c.
-/// point: each pixel lies in one triangle, decided by the signs of det(P, A, B), computed once per
-/// edge and the same for both triangles at it; a pixel that rounding leaves out, at a vertex or in
-/// a sliver, goes to the triangle nearest by the same determinants. area: triangles larger than
-/// half a cell are divided; each piece counts in each cell by the area of both together, exactly:
-/// between φ's the area under a great circle is elementary.
+/// - point: each pixel lies in one triangle, decided by the signs of det(P, A, B), computed once
+///   per edge and the same for both triangles at it; a pixel that rounding leaves out, at a vertex
+///   or in a sliver, goes to the nearest triangle.
+/// - area: triangles larger than half a cell are divided; each piece counts in each cell by the
+///   area of both together, exactly, with the value at its middle. What a cell's border cuts off
+///   makes an error of up to 3 % of the change across a cell, which vanishes where triangles are
+///   small.
 ///
 /// @param values  #V by components; finite.
 /// @throws std::invalid_argument  as check_spherical_map(); values has another number of rows or a
