@@ -54,7 +54,7 @@ SHAPE3D_DESCRIPTORS_EXPORT int check_spherical_map(const Eigen::Ref<const Points
 ///   or in a sliver, goes to the nearest triangle.
 /// - area: triangles larger than half a cell are divided; each piece counts in each cell by the
 ///   area of both together, exactly, with the value at its middle. What a cell's border cuts off
-///   makes an error of up to 3 % of the change across a cell, which vanishes where triangles are
+///   makes an error of up to 8 % of the change across a cell, which vanishes where triangles are
 ///   small.
 ///
 /// @param values  #V by components; finite.
