@@ -24,6 +24,7 @@ namespace {
 
 namespace d = descriptors;
 
+constexpr double kPi = 3.14159265358979323846;
 constexpr int kImageHeight = 240;
 
 std::string percent(double share) { return to_text(std::round(1000.0 * share) / 10.0) + " %"; }
@@ -100,8 +101,8 @@ Mesh half_surface(const d::Voxels& voxels, double largest) {
   options.border = zmc::Border::capped;
   const auto surface = zmc::extract(view, 0.5 * largest, options);
   Mesh mesh;
-  mesh.V = surface.V;
-  mesh.F = surface.F;
+  mesh.V = surface.V();
+  mesh.F = surface.F();
   return mesh;
 }
 
@@ -284,9 +285,9 @@ void show(Collector& collector, const d::SphericalParameters& p, const PosedMesh
     }
     case d::SphericalImageKind::sci: {
       image = d::spherical_curvature_image(mesh.V, mesh.F, mesh.S, options);
-      const double radius = std::sqrt(d::surface_area(mesh.V, mesh.F) / (4.0 * EIGEN_PI));
+      const double radius = std::sqrt(d::surface_area(mesh.V, mesh.F) / (4.0 * kPi));
       const Eigen::VectorXd values =
-          (radius * d::vertex_mean_curvature(mesh.V, mesh.F)).array().atan() * (2.0 / EIGEN_PI);
+          (radius * d::vertex_mean_curvature(mesh.V, mesh.F)).array().atan() * (2.0 / kPi);
       scale.emplace();
       scale->map = ColorMap::cool_warm;
       scale->lower = -1.0;
