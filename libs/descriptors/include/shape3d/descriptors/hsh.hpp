@@ -35,7 +35,8 @@ struct HshOptions {
   SphereMap map = SphereMap::equal_volume;
   double stretch = 4.0;  ///< s of SphereMap::stereographic, 0.1 … 100.
   Quadrature quadrature = Quadrature::voxels;
-  int grid = 20;  ///< Angles along each of θ0, θ, φ for Quadrature::svd, 2K + 2 … 40.
+  int grid = 0;  ///< n of HshSampling for separable and svd; 0: the larger of K + 1 and side/2 for
+                 ///< separable, of 20 (the dissertation's) and 2K + 2 for svd.
 };
 
 /// θ0 of the sphere map (the upper half of two_sided). @param rho  In [0, 1].
