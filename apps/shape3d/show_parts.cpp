@@ -34,7 +34,10 @@ class Collector {
  public:
   explicit Collector(ShownParts& parts) : parts_(parts) {}
 
+  /// The y axis upwards, as in the slices and as most models stand; pictures have z upwards.
   SceneMesh scene(Mesh mesh) {
+    mesh.V.col(1).swap(mesh.V.col(2));
+    mesh.V.col(1) = -mesh.V.col(1);
     parts_.meshes.push_back(std::move(mesh));
     SceneMesh scene;
     scene.mesh = view_of(parts_.meshes.back());
@@ -78,7 +81,7 @@ ColorScale voxel_scale(const d::Voxels& voxels) {
   return scale;
 }
 
-// The slice between the two middle layers' lower one, y upwards.
+// The upper one of the two middle layers in z, y upwards.
 Raster slice_of(const d::Voxels& voxels, const ColorScale& scale) {
   const int n = voxels.side;
   std::vector<double> values;
