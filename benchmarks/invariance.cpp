@@ -13,6 +13,8 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 
+#include "bumpy_body.hpp"
+#include "common/chart.hpp"
 #include "common/mesh_io.hpp"
 #include "common/output_file.hpp"
 #include "markdown_table.hpp"
@@ -149,49 +151,63 @@ std::string dissertation_table(const Shape& shape) {
   return table.text();
 }
 
-/// Vectors of coarser meshes of one shape against that of the finest.
+/// Vectors of coarser meshes of a shape against that of its finest; meshes of a shape share the
+/// part of their names before the first '_'.
 std::string resolution_table(const std::vector<Shape>& shapes) {
   MarkdownTable table({"mesh", "triangles", "HSH 45 distance %", "HSH 45 area %",
                        "HSH 496 distance %", "CSM 5×9 distance %", "D2 % (L1)"});
   const char* const specs[] = {"hsh:fill=distance", "hsh:fill=area", "hsh:K=30,fill=distance",
                                "csm:R=5,K=8,fill=distance"};
-  const Shape& finest = *std::max_element(
-      shapes.begin(), shapes.end(),
-      [](const Shape& a, const Shape& b) { return a.mesh.F.rows() < b.mesh.F.rows(); });
+  const auto family = [](const Shape& shape) { return shape.name.substr(0, shape.name.find('_')); };
   const Descriptor d2 = Descriptor::parse("d2");
   for (const Shape& shape : shapes) {
+    const Shape* finest = &shape;
+    for (const Shape& other : shapes) {
+      if (family(other) == family(shape) && other.mesh.F.rows() > finest->mesh.F.rows()) {
+        finest = &other;
+      }
+    }
     std::vector<std::string> row{shape.name, std::to_string(shape.mesh.F.rows())};
+    const apps::Mesh& fine = finest->mesh;
     for (const char* const spec : specs) {
       const Descriptor descriptor = Descriptor::parse(spec);
-      row.push_back(percent(change(descriptor.compute(finest.mesh.V, finest.mesh.F),
-                                   descriptor.compute(shape.mesh.V, shape.mesh.F))));
+      row.push_back(finest == &shape
+                        ? "finest"
+                        : percent(change(descriptor.compute(fine.V, fine.F),
+                                         descriptor.compute(shape.mesh.V, shape.mesh.F))));
     }
-    row.push_back(
-        percent((d2.compute(finest.mesh.V, finest.mesh.F) - d2.compute(shape.mesh.V, shape.mesh.F))
-                    .lpNorm<1>()));
+    row.push_back(finest == &shape ? "finest"
+                                   : percent((d2.compute(fine.V, fine.F) -
+                                              d2.compute(shape.mesh.V, shape.mesh.F))
+                                                 .lpNorm<1>()));
     table.add(row);
   }
   return table.text();
 }
 
-/// A smooth body with an inner and an outer part on different radii, the inner turned by an angle
-/// about z (Fig. 5.4): coefficients on S³ by exact quadrature of its values.
-descriptors::HshCoefficients two_parts(const descriptors::HshSampling& sampling, int K,
-                                       double angle) {
-  const auto part = [](const Vector3d& d) {  // on the sphere, without symmetry
-    return 1.0 + 0.8 * d[0] + 0.5 * d[0] * d[1] + 0.6 * d[0] * d[0] * d[2] - 0.4 * d[1] * d[2];
+/// The body of Fig. 5.4, smooth, at a point of radius rho in direction d: an inner part round the
+/// radius 0.4 and an outer one round 0.8, neither with any symmetry; the inner turned about z.
+double two_parts(double rho, const Vector3d& d, double angle) {
+  const auto part = [](const Vector3d& p) {
+    return 1.0 + 0.8 * p[0] + 0.5 * p[0] * p[1] + 0.6 * p[0] * p[0] * p[2] - 0.4 * p[1] * p[2];
   };
-  const auto bump = [](double rho, double centre) {
-    return std::exp(-0.5 * std::pow((rho - centre) / 0.05, 2));
+  const auto bump = [](double x) {  // ends at ±0.2
+    return std::abs(x) < 0.2 ? std::pow(1.0 - x * x / 0.04, 4) : 0.0;
   };
-  const Eigen::Matrix3d back = Eigen::AngleAxisd(-angle, Vector3d::UnitZ()).matrix();
+  const Vector3d back = Eigen::AngleAxisd(-angle, Vector3d::UnitZ()) * d;
+  return bump(rho - 0.4) * part(back) + bump(rho - 0.8) * part(d);
+}
+
+/// Coefficients on S³ of a function of radius and direction, by quadrature of its values.
+template <class Function>
+descriptors::HshCoefficients coefficients_of(const descriptors::HshSampling& sampling, int K,
+                                             Function&& f) {
   Eigen::VectorXd values(sampling.size());
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     const Vector3d a = sampling.node(i);
     const double rho = std::cbrt((a[0] - std::sin(a[0]) * std::cos(a[0])) / kPi);  // equal volume
-    const Vector3d d(std::sin(a[1]) * std::cos(a[2]), std::sin(a[1]) * std::sin(a[2]),
-                     std::cos(a[1]));
-    values[i] = bump(rho, 0.4) * part(back * d) + bump(rho, 0.8) * part(d);
+    values[i] = f(rho, Vector3d(std::sin(a[1]) * std::cos(a[2]), std::sin(a[1]) * std::sin(a[2]),
+                                std::cos(a[1])));
   }
   descriptors::HshCoefficients result;
   result.K = K;
@@ -199,30 +215,102 @@ descriptors::HshCoefficients two_parts(const descriptors::HshSampling& sampling,
   return result;
 }
 
-std::string internal_rotation_table() {
+/// Concentric spheres: ‖f_l‖, l ≤ 4 (the body has no more), on 32 spheres. A function that does not
+/// depend on θ0 has C_{l,l}^m = C_l^m ∫ R_{l,l} sin² θ0 dθ0, the same factor for every angle.
+Eigen::VectorXd sphere_norms(double angle) {
+  constexpr int kSpheres = 32, kDegree = 4;
+  const descriptors::HshSampling sampling(kDegree, descriptors::Quadrature::separable, kDegree + 1);
+  Eigen::VectorXd norms(kSpheres * (kDegree + 1));
+  for (int r = 0; r < kSpheres; ++r) {
+    const Eigen::VectorXd energies = descriptors::hsh_energies(coefficients_of(
+        sampling, kDegree,
+        [&](double, const Vector3d& d) { return two_parts((r + 0.5) / kSpheres, d, angle); }));
+    for (int l = 0; l <= kDegree; ++l) {
+      norms[r * (kDegree + 1) + l] =
+          energies[static_cast<Eigen::Index>(descriptors::hsh_pair_index(l, l))];
+    }
+  }
+  return norms;
+}
+
+apps::ChartSeries curve(const std::string& label, const apps::Color& color) {
+  apps::ChartSeries series;
+  series.label = label;
+  series.color = color;
+  return series;
+}
+
+/// The table of changes by angle, and its curves in a chart.
+std::string internal_rotation_table(apps::Chart& chart) {
+  chart.title = "Inner part turned against the outer part";
+  chart.x.title = "angle, degrees";
+  chart.y.title = "change of the vector, percent";
+  chart.legend = apps::LegendPlace::top_left;
+  chart.series = {curve("Gram, K = 15", {0.8, 0.15, 0.15}), curve("HSH, K = 15", {0.1, 0.35, 0.75}),
+                  curve("HSH, K = 8", {0.1, 0.6, 0.45}),
+                  curve("concentric spheres", {0.35, 0.35, 0.35})};
   MarkdownTable table(
       {"angle", "concentric spheres %", "HSH 45 %", "HSH K = 15, 136 %", "Gram K = 15, 816 %"});
-  const int K = 15, nodes = 64;
+  const int K = 15, nodes = 48;
   const descriptors::HshSampling sampling(K, descriptors::Quadrature::separable, nodes);
   const auto truncated = [](const descriptors::HshCoefficients& c, int degree) {
     descriptors::HshCoefficients result = c;
     result.K = degree;
     result.values.conservativeResize(static_cast<Eigen::Index>(descriptors::hsh_count(degree)));
-    return result;
+    return descriptors::hsh_energies(result);
   };
-  // Concentric spheres of the same function: norms of degree l at each radius, from the values of
-  // the two parts there, which a rotation of either leaves.
-  const descriptors::HshCoefficients base = two_parts(sampling, K, 0.0);
+  const auto at_angle = [&](double angle) {
+    return coefficients_of(sampling, K,
+                           [&](double rho, const Vector3d& d) { return two_parts(rho, d, angle); });
+  };
+  const descriptors::HshCoefficients base = at_angle(0.0);
   for (int degrees = 0; degrees <= 180; degrees += 15) {
-    const descriptors::HshCoefficients turned = two_parts(sampling, K, degrees * kPi / 180.0);
-    table.add({std::to_string(degrees) + "°", "0 (exactly)",
-               percent(change(descriptors::hsh_energies(truncated(base, 8)),
-                              descriptors::hsh_energies(truncated(turned, 8)))),
-               percent(change(descriptors::hsh_energies(base), descriptors::hsh_energies(turned))),
-               percent(change(descriptors::gram_invariants(base),
-                              descriptors::gram_invariants(turned)))});
+    const double angle = degrees * kPi / 180.0;
+    const descriptors::HshCoefficients turned = at_angle(angle);
+    const double changes[] = {
+        change(descriptors::gram_invariants(base), descriptors::gram_invariants(turned)),
+        change(truncated(base, K), truncated(turned, K)),
+        change(truncated(base, 8), truncated(turned, 8)),
+        change(sphere_norms(0.0), sphere_norms(angle))};
+    table.add({std::to_string(degrees) + "°", percent(changes[3]), percent(changes[2]),
+               percent(changes[1]), percent(changes[0])});
+    for (std::size_t i = 0; i < 4; ++i) {
+      chart.series[i].points.push_back({static_cast<double>(degrees), 100.0 * changes[i]});
+    }
   }
   return table.text();
+}
+
+/// D2 histograms of two groups of shapes (Fig. 5.2).
+apps::Chart d2_chart(const std::vector<Shape>& first, const std::vector<Shape>& second) {
+  apps::Chart chart;
+  chart.title = "D2 of " + std::to_string(first.size()) + " tanks and " +
+                std::to_string(second.size()) + " cars";
+  chart.x.title = "distance of two points, in units of the mean";
+  chart.y.title = "share of the pairs, percent";
+  const Descriptor d2 = Descriptor::parse("d2");
+  const auto add = [&](const std::vector<Shape>& shapes, const std::string& label,
+                       const apps::Color& color) {
+    for (const Shape& shape : shapes) {
+      const Eigen::VectorXd histogram = d2.compute(shape.mesh.V, shape.mesh.F);
+      apps::ChartSeries series = curve(&shape == &shapes.front() ? label : std::string(), color);
+      for (Eigen::Index b = 0; b < histogram.size(); ++b) {
+        const double middle =
+            3.0 * (static_cast<double>(b) + 0.5) / static_cast<double>(histogram.size());
+        series.points.push_back({middle, 100.0 * histogram[b]});
+      }
+      chart.series.push_back(series);
+    }
+  };
+  add(first, "tanks", {0.65, 0.65, 0.65});
+  add(second, "cars", {0.1, 0.1, 0.1});
+  return chart;
+}
+
+void write_picture(const std::string& path, const apps::Chart& chart) {
+  apps::OutputFile file(path);
+  file.write(apps::draw_charts({chart}));
+  file.commit();
 }
 
 std::vector<Shape> read_shapes(const std::vector<std::string>& paths) {
@@ -236,19 +324,37 @@ std::vector<Shape> read_shapes(const std::vector<std::string>& paths) {
 int run(int argc, char** argv) {
   CLI::App program(
       "Measures how descriptors change with pose, mesh resolution and inner rotation.");
-  std::vector<std::string> shapes, resolutions;
+  std::vector<std::string> shapes, resolutions, tanks, cars;
+  std::string rotation_picture, d2_picture;
   program.add_option("--shapes", shapes, "Meshes that are turned")->required();
-  program.add_option("--resolutions", resolutions, "Meshes of one shape");
+  program.add_option("--resolutions", resolutions,
+                     "Meshes of several resolutions: <shape>_<resolution>");
+  program.add_option("--tanks", tanks, "Meshes of the first group of Fig. 5.2");
+  program.add_option("--cars", cars, "Meshes of the second group of Fig. 5.2");
+  program.add_option("--rotation-picture", rotation_picture, "PNG of the internal rotation");
+  program.add_option("--d2-picture", d2_picture, "PNG of the D2 histograms of both groups");
   CLI11_PARSE(program, argc, argv);
   const std::vector<Shape> turned = read_shapes(shapes);
   std::cout << "## Rotation\n\n"
             << rotation_table(turned) << "\n## Tables 5.1 and 5.2\n\n"
             << "Shape: " << turned.front().name << ".\n\n"
             << dissertation_table(turned.front());
-  if (!resolutions.empty()) {
-    std::cout << "\n## Mesh resolution\n\n" << resolution_table(read_shapes(resolutions));
+  std::vector<Shape> meshes = read_shapes(resolutions);
+  for (const int triangles : {1000, 3000, 10000, 30000, 100000}) {
+    const Body body = bumpy(rows_for(triangles));
+    Shape shape;
+    shape.name = "generated_" + std::to_string(triangles);
+    shape.mesh.V = body.V;
+    shape.mesh.F = body.F;
+    meshes.push_back(shape);
   }
-  std::cout << "\n## Internal rotation\n\n" << internal_rotation_table();
+  std::cout << "\n## Mesh resolution\n\n" << resolution_table(meshes);
+  apps::Chart chart;
+  std::cout << "\n## Internal rotation\n\n" << internal_rotation_table(chart);
+  if (!rotation_picture.empty()) write_picture(rotation_picture, chart);
+  if (!d2_picture.empty()) {
+    write_picture(d2_picture, d2_chart(read_shapes(tanks), read_shapes(cars)));
+  }
   return EXIT_SUCCESS;
 }
 

@@ -97,17 +97,45 @@ Library read_library(const Classification& classification, const std::string& fo
   return library;
 }
 
-/// One row a mesh; `seconds` is the time of all of them.
-Eigen::MatrixXd describe(const Library& library, const descriptors::Descriptor& descriptor,
-                         double& seconds) {
-  Eigen::MatrixXd X(static_cast<Eigen::Index>(library.meshes.size()), descriptor.length());
-  const auto start = Clock::now();
-  tbb::parallel_for(std::size_t{0}, library.meshes.size(), [&](std::size_t i) {
-    X.row(static_cast<Eigen::Index>(i)) =
-        descriptor.compute(library.meshes[i].V, library.meshes[i].F, 1).transpose();
-  });
-  seconds = seconds_since(start);
-  return X;
+/// The part of a descriptor's text that says how voxels are made; all of it when there are none.
+std::string voxels_of(const descriptors::Descriptor& descriptor) {
+  const descriptors::VoxelizeOptions* const options = descriptor.voxels();
+  if (options == nullptr) return descriptor.to_string();
+  const std::string text = descriptor.to_string();
+  return text.substr(text.find(",voxels=" + std::to_string(options->side)));
+}
+
+/// Vectors by each descriptor, one row a mesh. Descriptors of equal voxels share them.
+std::vector<Eigen::MatrixXd> describe(const Library& library,
+                                      const std::vector<descriptors::Descriptor>& wanted) {
+  std::map<std::string, std::vector<std::size_t>> groups;
+  std::vector<Eigen::MatrixXd> vectors;
+  for (std::size_t d = 0; d < wanted.size(); ++d) {
+    groups[voxels_of(wanted[d])].push_back(d);
+    vectors.emplace_back(static_cast<Eigen::Index>(library.meshes.size()), wanted[d].length());
+  }
+  for (const auto& group : groups) {
+    const std::vector<std::size_t>& members = group.second;
+    tbb::parallel_for(std::size_t{0}, library.meshes.size(), [&](std::size_t i) {
+      const apps::Mesh& mesh = library.meshes[i];
+      const auto row = static_cast<Eigen::Index>(i);
+      const descriptors::Descriptor& first = wanted[members.front()];
+      if (first.voxels() == nullptr) {
+        vectors[members.front()].row(row) = first.compute(mesh.V, mesh.F, 1).transpose();
+        return;
+      }
+      descriptors::VoxelizeOptions options = *first.voxels();
+      options.threads = 1;
+      const descriptors::Voxels voxels = descriptors::voxelize(mesh.V, mesh.F, options);
+      for (const std::size_t d : members) {
+        vectors[d].row(row) = wanted[d].compute(voxels, 1).transpose();
+      }
+    });
+    if (wanted[members.front()].voxels() == nullptr) {
+      for (const std::size_t d : members) vectors[d] = vectors[members.front()];
+    }
+  }
+  return vectors;
 }
 
 int run(int argc, char** argv) {
@@ -134,29 +162,29 @@ int run(int argc, char** argv) {
   const Library library = read_library(read_classification(classes), models);
   if (library.meshes.size() < 2) throw apps::FileError(models, "has fewer than two of the models");
 
+  const auto start = Clock::now();
+  const std::vector<Eigen::MatrixXd> vectors = describe(library, parsed);
+  const double describing = seconds_since(start);
   MarkdownTable table(
-      {"descriptor", "numbers", "distance", "NN", "1st tier", "2nd tier", "E", "DCG", "seconds"});
-  std::map<std::string, std::pair<Eigen::MatrixXd, double>> vectors;
+      {"descriptor", "numbers", "distance", "NN", "1st tier", "2nd tier", "E", "DCG"});
   int queries = 0;
   for (std::size_t e = 0; e < entries.size(); ++e) {
-    auto [place, is_new] = vectors.try_emplace(parsed[e].to_string());
-    if (is_new) place->second.first = describe(library, parsed[e], place->second.second);
     const RetrievalMeasures measures =
-        retrieval_measures(distances(place->second.first, entries[e].distance), library.of_class);
+        retrieval_measures(distances(vectors[e], entries[e].distance), library.of_class);
     queries = measures.queries;
     const auto percent = [](double share) { return fixed(100.0 * share, 1); };
     table.add({entries[e].name, std::to_string(parsed[e].length()),
                entries[e].distance == Distance::L1 ? "L1" : "L2",
                percent(measures.nearest_neighbour), percent(measures.first_tier),
-               percent(measures.second_tier), percent(measures.e_measure), percent(measures.dcg),
-               fixed(place->second.second, 1)});
+               percent(measures.second_tier), percent(measures.e_measure), percent(measures.dcg)});
     std::cerr << entries[e].name << ": NN " << percent(measures.nearest_neighbour) << ", DCG "
               << percent(measures.dcg) << '\n';
   }
 
   std::string text = table.text();
   text += "\n" + std::to_string(library.meshes.size()) + " models, " + std::to_string(queries) +
-          " queries; read in " + fixed(library.reading, 1) + " s.";
+          " queries; read in " + fixed(library.reading, 1) + " s, described by all of these in " +
+          fixed(describing, 1) + " s.";
   if (!library.left_out.empty()) {
     text += " Left out: " + std::to_string(library.left_out.size()) + ".\n";
     for (const std::string& sentence : library.left_out)

@@ -105,7 +105,9 @@ struct ConcentricSpheres::Plan {
         total[r] += overlap * share;
       }
     }
-    for (int r = 0; r < options.R; ++r) weights.row(r) *= 4.0 * kPi / total[r];
+    for (int r = 0; r < options.R; ++r) {
+      weights.row(r) *= 4.0 * kPi / total[r] * (options.weighted ? (r + 0.5) / options.R : 1.0);
+    }
   }
 
   CsmOptions options;

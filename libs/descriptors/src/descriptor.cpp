@@ -53,9 +53,9 @@ struct Descriptor::State {
   Eigen::Index prepare(const HshParameters& p) {
     check_power(p.power);
     hsh = std::make_unique<const HshTransform>(p.transform, p.voxels.side);
-    return static_cast<Eigen::Index>(p.invariants == HshInvariants::gram
-                                         ? gram_count(p.transform.K)
-                                         : hsh_pair_count(p.transform.K));
+    return static_cast<Eigen::Index>(p.invariants == HshInvariants::energies
+                                         ? hsh_pair_count(p.transform.K)
+                                         : gram_count(p.transform.K));
   }
 
   Eigen::Index prepare(const CsmParameters& p) {
@@ -87,27 +87,43 @@ struct Descriptor::State {
   // The vector of solid space, from V and F.
   Eigen::VectorXd compute(const HshParameters& p, const Eigen::Ref<const Points>& V,
                           const Eigen::Ref<const Triangles>& F, int threads) const {
-    HshCoefficients coefficients;
     if (p.source == HshSource::surface) {
       const Frame frame = surface_frame(V, F, p.voxels.centre, p.voxels.scale, p.voxels.factor);
       const double edge = 2.0 * frame.radius / p.voxels.side;
-      coefficients =
-          hsh_of_points(surface_points(V, F, kPointSpacing * edge), frame, p.transform, threads);
-    } else {
-      VoxelizeOptions options = p.voxels;
-      options.threads = threads;
-      coefficients = (*hsh)(voxelize(V, F, options), threads);
+      return invariants(p, hsh_of_points(surface_points(V, F, kPointSpacing * edge), frame,
+                                         p.transform, threads));
     }
-    return shaped(p.invariants == HshInvariants::gram ? gram_invariants(coefficients)
-                                                      : hsh_energies(coefficients),
-                  p.unit, p.power);
+    return of_voxels(p, voxelize(V, F, with_threads(p.voxels, threads)), threads);
   }
 
   Eigen::VectorXd compute(const CsmParameters& p, const Eigen::Ref<const Points>& V,
                           const Eigen::Ref<const Triangles>& F, int threads) const {
-    VoxelizeOptions options = p.voxels;
+    return of_voxels(p, voxelize(V, F, with_threads(p.voxels, threads)), threads);
+  }
+
+  static VoxelizeOptions with_threads(VoxelizeOptions options, int threads) {
     options.threads = threads;
-    return shaped((*csm)(voxelize(V, F, options), threads), p.unit, p.power);
+    return options;
+  }
+
+  static Eigen::VectorXd invariants(const HshParameters& p, const HshCoefficients& coefficients) {
+    switch (p.invariants) {
+      case HshInvariants::gram:
+        return shaped(gram_invariants(coefficients), p.unit, p.power);
+      case HshInvariants::roots:
+        return shaped(gram_roots(coefficients), p.unit, p.power);
+      case HshInvariants::energies:
+        break;
+    }
+    return shaped(hsh_energies(coefficients), p.unit, p.power);
+  }
+
+  Eigen::VectorXd of_voxels(const HshParameters& p, const Voxels& voxels, int threads) const {
+    return invariants(p, (*hsh)(voxels, threads));
+  }
+
+  Eigen::VectorXd of_voxels(const CsmParameters& p, const Voxels& voxels, int threads) const {
+    return shaped((*csm)(voxels, threads), p.unit, p.power);
   }
 
   static Eigen::VectorXd compute(const D2Parameters& p, const Eigen::Ref<const Points>& V,
@@ -165,6 +181,26 @@ Align Descriptor::align() const { return state_->description.align; }
 Eigen::Index Descriptor::length() const { return state_->length; }
 bool Descriptor::needs_map() const {
   return std::holds_alternative<SphericalParameters>(parameters());
+}
+
+const VoxelizeOptions* Descriptor::voxels() const {
+  if (const auto* hsh = std::get_if<HshParameters>(&parameters())) {
+    return hsh->source == HshSource::voxels ? &hsh->voxels : nullptr;
+  }
+  const auto* csm = std::get_if<CsmParameters>(&parameters());
+  return csm != nullptr ? &csm->voxels : nullptr;
+}
+
+Eigen::VectorXd Descriptor::compute(const Voxels& voxels, int threads) const {
+  threads = detail::resolve_threads(threads);
+  if (this->voxels() == nullptr) {
+    throw std::invalid_argument("descriptor " + to_string() +
+                                " is not of voxels, expected one that is");
+  }
+  if (const auto* hsh = std::get_if<HshParameters>(&parameters())) {
+    return state_->of_voxels(*hsh, voxels, threads);
+  }
+  return state_->of_voxels(std::get<CsmParameters>(parameters()), voxels, threads);
 }
 
 Eigen::VectorXd Descriptor::compute(const Eigen::Ref<const Points>& V,

@@ -45,7 +45,7 @@ struct EnumNames<HshSource> {
 };
 template <>
 struct EnumNames<HshInvariants> {
-  static constexpr std::array<std::string_view, 2> names{"energies", "gram"};
+  static constexpr std::array<std::string_view, 3> names{"energies", "gram", "roots"};
 };
 template <>
 struct EnumNames<CsmVariant> {
@@ -93,6 +93,7 @@ void visit_fields(HshParameters& p, Visitor&& visit) {
 template <class Visitor>
 void visit_fields(CsmParameters& p, Visitor&& visit) {
   visit("variant", p.spheres.variant);
+  visit("weighted", p.spheres.weighted);
   visit("R", p.spheres.R);
   visit("K", p.spheres.K);
   visit("unit", p.unit);

@@ -68,7 +68,8 @@ void visit_voxels(const GridTriangle& t, int side, Set&& set) {
     extents += range[axis][0] != range[axis][1] ? 1 : 0;
   }
   std::array<int, 3> voxel{};
-  if (extents <= 1) {
+  const bool within = (low.array() >= 0.0).all() && (high.array() <= side).all();
+  if (extents <= 1 && within) {
     // A row of voxels: the triangle lies in the row and reaches across all of its range.
     for (voxel[2] = range[2][0]; voxel[2] <= range[2][1]; ++voxel[2]) {
       for (voxel[1] = range[1][0]; voxel[1] <= range[1][1]; ++voxel[1]) {
@@ -84,7 +85,11 @@ void visit_voxels(const GridTriangle& t, int side, Set&& set) {
   const auto iu = static_cast<Eigen::Index>(u), iv = static_cast<Eigen::Index>(v);
   const Projection along_w(t, normal, static_cast<int>(w)), along_u(t, normal, static_cast<int>(u)),
       along_v(t, normal, static_cast<int>(v));
-  const bool has_plane = normal[steepest] != 0.0;
+  // The plane of a triangle that is lower than 1e-8 of its longest edge is known to worse than 1e-6
+  // voxel edges; its projections bound it as closely.
+  const double longest =
+      std::max({(t.b - t.a).squaredNorm(), (t.c - t.b).squaredNorm(), (t.a - t.c).squaredNorm()});
+  const bool has_plane = std::abs(normal[steepest]) > 1e-8 * longest;
   const double slope_u = has_plane ? -normal[iu] / normal[steepest] : 0.0;
   const double slope_v = has_plane ? -normal[iv] / normal[steepest] : 0.0;
   for (voxel[v] = range[v][0]; voxel[v] <= range[v][1]; ++voxel[v]) {

@@ -20,34 +20,26 @@ double twice_measure(double theta0) {
   return theta0 - 0.5 * std::sin(2.0 * theta0);
 }
 
-// θ0 − sin θ0 cos θ0 = πρ³: Newton's method within a shrinking bracket.
-double equal_volume_angle(double rho) {
-  const double target = kPi * rho * rho * rho;
-  if (target > 0.5 * kPi) {  // from the other pole, where the equation is better conditioned
-    const double rest = kPi * (1.0 - rho) * (1.0 + rho + rho * rho);
-    double low = 0.0, high = 0.5 * kPi, angle = std::min(high, std::cbrt(1.5 * rest));
-    for (int step = 0; step < 60 && high - low > 1e-16; ++step) {
-      const double excess = twice_measure(angle) - rest;
-      (excess > 0.0 ? high : low) = angle;
-      const double slope = 2.0 * std::sin(angle) * std::sin(angle);
-      double next = slope > 0.0 ? angle - excess / slope : low;
-      if (!(next > low && next < high)) next = 0.5 * (low + high);
-      if (std::abs(next - angle) <= 1e-16 * angle) break;
-      angle = next;
-    }
-    return kPi - angle;
-  }
+// The angle of twice_measure(angle) = target, in [0, π/2]: Newton's method within a bracket.
+double angle_of_measure(double target) {
+  if (target <= 0.0) return 0.0;
   double low = 0.0, high = 0.5 * kPi + 1e-9, angle = std::min(high, std::cbrt(1.5 * target));
-  for (int step = 0; step < 60 && high - low > 1e-17; ++step) {
+  for (int step = 0; step < 100; ++step) {
     const double excess = twice_measure(angle) - target;
     (excess > 0.0 ? high : low) = angle;
-    const double slope = 2.0 * std::sin(angle) * std::sin(angle);
-    double next = slope > 0.0 ? angle - excess / slope : low;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::abs(next - angle) <= 1e-16 * angle) break;
-    angle = next;
+    const double change = excess / (2.0 * std::sin(angle) * std::sin(angle));
+    if (std::abs(change) <= 2e-16 * angle) break;
+    const double next = angle - change;
+    angle = next > low && next < high ? next : 0.5 * (low + high);
   }
   return angle;
+}
+
+// θ0 − sin θ0 cos θ0 = πρ³, from the nearer pole.
+double equal_volume_angle(double rho) {
+  const double measure = kPi * rho * rho * rho;
+  if (measure <= 0.5 * kPi) return angle_of_measure(measure);
+  return kPi - angle_of_measure(kPi * (1.0 - rho) * (1.0 + rho + rho * rho));
 }
 
 void check_stretch(double stretch) {

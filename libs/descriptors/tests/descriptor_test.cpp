@@ -93,6 +93,23 @@ TEST_CASE("vectors are what their parts compute", "[descriptors][property]") {
   const Eigen::VectorXd unit = hsh_energies(coefficients).normalized();
   CHECK((vector("hsh:unit=yes,power=0.5") - unit.cwiseSqrt()).norm() < 1e-14);
   CHECK(vector("hsh:invariants=gram,power=0.5").minCoeff() < 0);
+  CHECK(vector("hsh:invariants=roots") == gram_roots(coefficients));
+  CHECK(Descriptor::parse("hsh:invariants=roots").compute(voxels) == gram_roots(coefficients));
+  CHECK(Descriptor::parse("csm").compute(voxels) == vector("csm"));
+  CHECK(Descriptor::parse("csm:voxels=32").voxels()->side == 32);
+  CHECK(Descriptor::parse("d2").voxels() == nullptr);
+  CHECK(Descriptor::parse("hsh:source=surface").voxels() == nullptr);
+  CHECK_THROWS_WITH(Descriptor::parse("egi").compute(voxels),
+                    "descriptor egi:K=16,align=none is not of voxels, expected one that is");
+  CHECK_THROWS_WITH(Descriptor::parse("csm:voxels=32").compute(voxels),
+                    "the voxels have side 64, expected 32");
+  const Eigen::VectorXd plain = vector("csm:R=4,K=2"),
+                        weighted = vector("csm:R=4,K=2,weighted=yes");
+  for (Eigen::Index r = 0; r < 4; ++r) {
+    CHECK(
+        (weighted.segment(3 * r, 3) - (static_cast<double>(r) + 0.5) / 4 * plain.segment(3 * r, 3))
+            .norm() < 1e-12 * plain.norm());
+  }
   CHECK(vector("csm") == ConcentricSpheres(CsmOptions{}, 64)(voxels));
   CHECK(vector("d2:pairs=1000") == d2_histogram(body.V, body.F, {64, 1000, 3.0, 1}));
   CHECK(vector("egi") == egi_power(body.V, body.F, 16));

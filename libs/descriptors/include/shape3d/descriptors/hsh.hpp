@@ -115,6 +115,13 @@ class SHAPE3D_DESCRIPTORS_EXPORT HshTransform {
 [[nodiscard]] SHAPE3D_DESCRIPTORS_EXPORT Eigen::VectorXd gram_invariants(
     const HshCoefficients& coefficients);
 
+/// Square roots of the Gram matrices G_l, symmetric and positive: as gram_invariants(), with the
+/// numbers off the diagonal times √2, so that the Euclidean distance of two vectors is that of all
+/// the matrices. They are of the unit of the function, as energies are, and equal these where only
+/// one λ has a part of degree l. Invariant under rotation. O(K⁴).
+[[nodiscard]] SHAPE3D_DESCRIPTORS_EXPORT Eigen::VectorXd gram_roots(
+    const HshCoefficients& coefficients);
+
 /// The truncated series (5.6) at the voxel centres inside the ball, 0 outside. For two_sided its
 /// value on the upper half. O(side³ K²).
 /// @throws std::invalid_argument  side is out of range; the coefficients' size is not hsh_count(K).

@@ -20,7 +20,11 @@ enum class Align {
 };
 
 /// Which numbers of the HSH coefficients are the vector.
-enum class HshInvariants { energies, gram };
+enum class HshInvariants {
+  energies,  ///< hsh_energies()
+  gram,      ///< gram_invariants()
+  roots      ///< gram_roots()
+};
 
 /// What the HSH coefficients are of.
 enum class HshSource {
