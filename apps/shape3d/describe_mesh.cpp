@@ -5,12 +5,25 @@
 #include <stdexcept>
 #include <string>
 
+#include <shape3d/mapping/align.hpp>
+#include <shape3d/mapping/spherical_map.hpp>
+
 namespace shape3d::apps {
 
 PosedMesh posed_mesh(const Mesh& mesh, descriptors::Align align, bool map) {
-  if (align == descriptors::Align::cpca) throw std::runtime_error("alignment is not available");
-  if (map) throw std::runtime_error("spherical maps are not available");
-  return PosedMesh{mesh.V, mesh.F, {}};
+  PosedMesh result{mesh.V, mesh.F, {}};
+  if (align == descriptors::Align::cpca) {
+    result.V = mapping::posed(mesh.V, mapping::align(mesh.V, mesh.F));
+  }
+  if (map) {
+    mapping::SphericalMap spherical = mapping::spherical_map(result.V, result.F);
+    if (spherical.status != mapping::Status::certified) {
+      throw std::runtime_error("has no spherical map: " +
+                               std::string(mapping::to_string(spherical.status)));
+    }
+    result.S = std::move(spherical.S);
+  }
+  return result;
 }
 
 std::vector<Eigen::VectorXd> describe_mesh(const Mesh& mesh,
