@@ -50,7 +50,7 @@ std::string draw_bars(const Eigen::VectorXd& vector, int width) {
   Chart chart;
   chart.title = std::to_string(vector.size()) + " numbers";
   chart.x.title = "number of the element";
-  chart.x.range = {-1.0, static_cast<double>(vector.size())};
+  chart.x.range = {-0.6, static_cast<double>(vector.size()) - 0.4};
   chart.y.title = "value";
   chart.legend = LegendPlace::none;
   chart.series.push_back(bars);
@@ -64,7 +64,7 @@ std::string draw_bars(const Eigen::VectorXd& vector, int width) {
 
 std::string draw_shown(const ShownParts& parts, const descriptors::Descriptor& descriptor,
                        const Eigen::VectorXd& vector) {
-  // Five parts in a row of three and one of two would leave a hole: as few columns as fit two rows.
+  // One row of up to three, or two rows.
   const int count = static_cast<int>(parts.panels.size());
   const int columns = count <= 3 ? count : (count + 1) / 2;
   const int rows = (count + columns - 1) / columns;

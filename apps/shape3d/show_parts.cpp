@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <variant>
 
 #include <Eigen/Geometry>
 
+#include <shape3d/descriptors/csm.hpp>
 #include <shape3d/descriptors/hsh.hpp>
 #include <shape3d/descriptors/sh.hpp>
 #include <shape3d/descriptors/shape_distribution.hpp>
@@ -93,8 +95,8 @@ Raster slice_of(const d::Voxels& voxels, const ColorScale& scale) {
   return raster;
 }
 
-// Where the values are half of the largest. Empty when they nowhere are.
-Mesh half_surface(const d::Voxels& voxels, double largest) {
+// Isosurface of voxels; empty when the level divides nothing.
+Mesh level_surface(const d::Voxels& voxels, double level) {
   zmc::VolumeView view;
   view.data = voxels.values.data();
   view.type = zmc::SampleType::float32;
@@ -102,11 +104,28 @@ Mesh half_surface(const d::Voxels& voxels, double largest) {
   zmc::Options options;
   options.inside = zmc::Inside::above;
   options.border = zmc::Border::capped;
-  const auto surface = zmc::extract(view, 0.5 * largest, options);
+  const auto surface = zmc::extract(view, level, options);
   Mesh mesh;
   mesh.V = surface.V();
   mesh.F = surface.F();
   return mesh;
+}
+
+// Gaussians of distances are cut nearer to the surface than the middle of their range.
+double share_of(d::Fill fill) {
+  return fill == d::Fill::gedt || fill == d::Fill::distance ? 0.8 : 0.5;
+}
+
+// A table of numbers, one row of squares above the other, row 0 at the foot; NaN is left grey.
+Raster squares_of(const Eigen::MatrixXd& values, const ColorScale& scale) {
+  const int rows = static_cast<int>(values.rows()), columns = static_cast<int>(values.cols());
+  std::vector<double> ordered;
+  for (int row = rows - 1; row >= 0; --row) {
+    for (int column = 0; column < columns; ++column) ordered.push_back(values(row, column));
+  }
+  Raster raster = make_raster(columns, rows, {0, 0, 0});
+  raster.rgb = colors_of(ordered.data(), ordered.size(), scale);
+  return raster;
 }
 
 Raster equirectangular(const d::SphericalImage& image, double low, double high) {
@@ -163,49 +182,53 @@ d::SphericalImage sphere_of(const d::Voxels& voxels, double radius, int size) {
   return image;
 }
 
-void show_voxels(Collector& collector, const d::Voxels& voxels, const ColorScale& scale) {
-  Mesh surface = half_surface(voxels, scale.upper);
+void show_voxels(Collector& collector, const d::Voxels& voxels, double level,
+                 const ColorScale& scale) {
+  Mesh surface = level_surface(voxels, level);
   if (surface.F.rows() > 0) {
-    collector.add_scene(collector.scene(std::move(surface)), "voxels at half of the largest");
+    collector.add_scene(collector.scene(std::move(surface)), "voxels at " + to_text(level));
   }
   collector.add_image(slice_of(voxels, scale), "middle slice of the voxels", scale);
 }
 
-void show(Collector& collector, const d::HshParameters& p, const PosedMesh& mesh, int threads) {
-  const d::Voxels voxels = [&] {
-    d::VoxelizeOptions options = p.voxels;
-    options.threads = threads;
-    return d::voxelize(mesh.V, mesh.F, options);
-  }();
-  const ColorScale scale = voxel_scale(voxels);
-  show_voxels(collector, voxels, scale);
-  const d::HshCoefficients coefficients =
-      d::HshTransform(p.transform, p.voxels.side)(voxels, threads);
-  const d::Voxels series = d::reconstruct(coefficients, p.voxels.side, threads);
-  const double residual = d::hsh_residual(coefficients, voxels, threads);
-  collector.set_residual(residual);
-  const std::string degree = "degrees up to " + std::to_string(p.transform.K);
-  const ColorScale own = voxel_scale(series);
-  Mesh surface = half_surface(series, own.upper);
-  if (surface.F.rows() > 0) {
-    collector.add_scene(collector.scene(std::move(surface)), degree + " at half of the largest");
+// ‖f_{λ,l}‖ as a triangle.
+void show_energies(Collector& collector, const d::HshCoefficients& coefficients) {
+  const Eigen::VectorXd energies = d::hsh_energies(coefficients);
+  const int K = coefficients.K;
+  Eigen::MatrixXd table =
+      Eigen::MatrixXd::Constant(K + 1, K + 1, std::numeric_limits<double>::quiet_NaN());
+  for (int lambda = 0; lambda <= K; ++lambda) {
+    for (int l = 0; l <= lambda; ++l) {
+      table(lambda, l) = energies[static_cast<Eigen::Index>(d::hsh_pair_index(lambda, l))];
+    }
   }
-  collector.add_image(slice_of(series, scale),
-                      "middle slice of these, residual " + percent(residual), scale);
+  ColorScale scale;
+  scale.upper = std::max(1e-30, energies.maxCoeff());
+  collector.add_image(squares_of(table, scale), "norms: l across, lambda upwards", scale);
 }
 
-void show(Collector& collector, const d::CsmParameters& p, const PosedMesh& mesh, int threads) {
-  d::VoxelizeOptions options = p.voxels;
-  options.threads = threads;
-  const d::Voxels voxels = d::voxelize(mesh.V, mesh.F, options);
-  const ColorScale scale = voxel_scale(voxels);
-  show_voxels(collector, voxels, scale);
-  // Up to eight spheres, from the inner to the outer, before and after truncation.
+// Three digits, as the captions show it.
+double rounded_level(double level) {
+  const double digit = std::pow(10.0, std::floor(std::log10(level)) - 2.0);
+  return std::round(level / digit) * digit;
+}
+
+// Up to eight spheres, from the inner to the outer, before and after truncation, and the vector by
+// sphere.
+void show_spheres(Collector& collector, const d::CsmParameters& p, const d::Voxels& voxels,
+                  const ColorScale& scale, int threads) {
+  const Eigen::VectorXd vector = d::ConcentricSpheres(p.spheres, p.voxels.side)(voxels, threads);
+  ColorScale norms;
+  norms.upper = std::max(1e-30, vector.maxCoeff());
+  const Eigen::Index numbers = vector.size() / p.spheres.R;
+  const Eigen::MatrixXd table = vector.reshaped(numbers, p.spheres.R).transpose();
+  collector.add_image(squares_of(table, norms), "norms: degree across, sphere upwards", norms);
+
   const int shown = std::min(8, p.spheres.R);
   const int rows = (shown + 1) / 2, height = kImageHeight / 2, gap = 4;
   Raster spheres = make_raster(2 * (2 * height + gap), rows * (height + gap), {1, 1, 1});
   Raster truncated = spheres;
-  const int size = p.voxels.side;
+  const int size = 2 * (p.voxels.side / 2);  // rows of an image are even
   const d::ShTransform transform(size, p.spheres.K);
   double rest = 0.0, whole = 0.0;
   for (int i = 0; i < shown; ++i) {
@@ -232,6 +255,39 @@ void show(Collector& collector, const d::CsmParameters& p, const PosedMesh& mesh
     caption += ", residual " + percent(std::sqrt(rest / whole));
   }
   collector.add_image(std::move(truncated), caption, scale);
+}
+
+void show(Collector& collector, const d::HshParameters& p, const PosedMesh& mesh, int threads) {
+  const d::Voxels voxels = [&] {
+    d::VoxelizeOptions options = p.voxels;
+    options.threads = threads;
+    return d::voxelize(mesh.V, mesh.F, options);
+  }();
+  const ColorScale scale = voxel_scale(voxels);
+  const double level = rounded_level(share_of(p.voxels.fill) * scale.upper);
+  show_voxels(collector, voxels, level, scale);
+  const d::HshCoefficients coefficients =
+      d::HshTransform(p.transform, p.voxels.side)(voxels, threads);
+  const d::Voxels series = d::reconstruct(coefficients, p.voxels.side, threads);
+  const double residual = d::hsh_residual(coefficients, voxels, threads);
+  collector.set_residual(residual);
+  show_energies(collector, coefficients);
+  Mesh surface = level_surface(series, level);
+  if (surface.F.rows() > 0) {
+    collector.add_scene(collector.scene(std::move(surface)),
+                        "degrees up to " + std::to_string(p.transform.K) + " at " + to_text(level));
+  }
+  collector.add_image(slice_of(series, scale),
+                      "middle slice of these, residual " + percent(residual), scale);
+}
+
+void show(Collector& collector, const d::CsmParameters& p, const PosedMesh& mesh, int threads) {
+  d::VoxelizeOptions options = p.voxels;
+  options.threads = threads;
+  const d::Voxels voxels = d::voxelize(mesh.V, mesh.F, options);
+  const ColorScale scale = voxel_scale(voxels);
+  show_voxels(collector, voxels, rounded_level(share_of(p.voxels.fill) * scale.upper), scale);
+  show_spheres(collector, p, voxels, scale, threads);
 }
 
 void show(Collector& collector, const d::EgiParameters& p, const PosedMesh& mesh, int threads) {
