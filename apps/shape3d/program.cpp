@@ -81,6 +81,7 @@ int run_program(int argc, char** argv) {
   add_check(app, settings);
   add_render(app, settings);
   add_compare(app, settings);
+  add_describe(app, settings);
   add_map(app, settings);
   add_align(app, settings);
   add_repair(app, settings);
