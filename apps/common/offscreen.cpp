@@ -6,11 +6,8 @@
 
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
 #include <vtkSMPTools.h>
-#include <vtkSmartPointer.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
 #include "child_process.hpp"
@@ -28,32 +25,6 @@ ChildResult draw_on(const std::string& display, const std::function<std::string(
   });
 }
 
-// Mean of samples × samples pixels.
-vtkSmartPointer<vtkImageData> shrink(vtkImageData* large, int samples) {
-  int dims[3];
-  large->GetDimensions(dims);
-  const int width = dims[0] / samples, height = dims[1] / samples;
-  auto small = vtkSmartPointer<vtkImageData>::New();
-  small->SetDimensions(width, height, 1);
-  small->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  const auto* from = static_cast<const unsigned char*>(large->GetScalarPointer());
-  auto* to = static_cast<unsigned char*>(small->GetScalarPointer());
-  const int stride = 3 * dims[0];
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < 3 * width; ++x) {
-      int sum = 0;
-      for (int sy = 0; sy < samples; ++sy) {
-        for (int sx = 0; sx < samples; ++sx) {
-          sum += from[static_cast<std::ptrdiff_t>(samples * y + sy) * stride +
-                      3 * (samples * (x / 3) + sx) + x % 3];
-        }
-      }
-      *to++ = static_cast<unsigned char>((sum + samples * samples / 2) / (samples * samples));
-    }
-  }
-  return small;
-}
-
 }  // namespace
 
 std::string draw_offscreen(const std::function<std::string()>& draw, bool private_display) {
@@ -68,19 +39,36 @@ std::string draw_offscreen(const std::function<std::string()>& draw, bool privat
   return std::move(result.output);
 }
 
-std::string png_of(vtkRenderWindow* window, int samples) {
+Raster raster_of(vtkRenderWindow* window, int samples) {
   vtkNew<vtkWindowToImageFilter> capture;
   capture->SetInput(window);
   capture->ReadFrontBufferOff();
   capture->SetInputBufferTypeToRGB();
   capture->Update();
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(shrink(capture->GetOutput(), samples));
-  writer->WriteToMemoryOn();
-  writer->Write();
-  vtkUnsignedCharArray* bytes = writer->GetResult();
-  return {reinterpret_cast<const char*>(bytes->GetPointer(0)),
-          static_cast<std::size_t>(bytes->GetNumberOfValues())};
+  vtkImageData* large = capture->GetOutput();
+  int dims[3];
+  large->GetDimensions(dims);
+  Raster small = make_raster(dims[0] / samples, dims[1] / samples, {1.0, 1.0, 1.0});
+  const auto* from = static_cast<const unsigned char*>(large->GetScalarPointer());
+  std::uint8_t* to = small.rgb.data();
+  const int stride = 3 * dims[0];
+  for (int y = small.height - 1; y >= 0; --y) {  // VTK's images begin at the foot
+    for (int x = 0; x < 3 * small.width; ++x) {
+      int sum = 0;
+      for (int sy = 0; sy < samples; ++sy) {
+        for (int sx = 0; sx < samples; ++sx) {
+          sum += from[static_cast<std::ptrdiff_t>(samples * y + sy) * stride +
+                      3 * (samples * (x / 3) + sx) + x % 3];
+        }
+      }
+      *to++ = static_cast<std::uint8_t>((sum + samples * samples / 2) / (samples * samples));
+    }
+  }
+  return small;
+}
+
+std::string png_of(vtkRenderWindow* window, int samples) {
+  return to_png(raster_of(window, samples));
 }
 
 }  // namespace shape3d::apps

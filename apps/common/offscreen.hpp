@@ -3,6 +3,8 @@
 #include <functional>
 #include <string>
 
+#include "raster.hpp"
+
 class vtkRenderWindow;
 
 namespace shape3d::apps {
@@ -18,9 +20,12 @@ namespace shape3d::apps {
 [[nodiscard]] std::string draw_offscreen(const std::function<std::string()>& draw,
                                          bool private_display = false);
 
-/// The rendered window as a PNG.
-/// @param samples  A pixel of the PNG is the mean of samples × samples pixels of the window, whose
-///                 sides are multiples of it.
+/// The pixels of a rendered window.
+/// @param samples  A pixel of the result is the mean of samples × samples pixels of the window,
+///                 whose sides are multiples of it.
+[[nodiscard]] Raster raster_of(vtkRenderWindow* window, int samples = 1);
+
+/// The same as a PNG.
 [[nodiscard]] std::string png_of(vtkRenderWindow* window, int samples = 1);
 
 }  // namespace shape3d::apps

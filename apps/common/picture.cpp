@@ -1,249 +1,190 @@
 #include "picture.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-
-#include <vtkActor.h>
-#include <vtkActorCollection.h>
-#include <vtkCamera.h>
-#include <vtkCleanPolyData.h>
-#include <vtkFloatArray.h>
-#include <vtkLightKit.h>
-#include <vtkNew.h>
-#include <vtkOpenGLRenderer.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataConnectivityFilter.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkRenderStepsPass.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkSSAOPass.h>
-#include <Eigen/Geometry>
+#include <cstring>
 
 #include "offscreen.hpp"
-#include "vtk_mesh.hpp"
 
 namespace shape3d::apps {
 namespace {
 
-constexpr int kSamples = 2;  // a pixel is the mean of kSamples² rendered ones
-
-struct NamedColor {
-  std::string_view name;
-  Color color;
+/// Meshes, and the size to draw them in.
+struct Drawing {
+  const std::vector<SceneMesh>* meshes = nullptr;
+  View view = View::front;
+  int width = 0, height = 0;
 };
-constexpr NamedColor kColors[] = {{"bone", {0.96, 0.92, 0.84}},   {"skin", {0.87, 0.68, 0.56}},
-                                  {"red", {0.77, 0.25, 0.22}},    {"green", {0.36, 0.60, 0.36}},
-                                  {"blue", {0.31, 0.48, 0.70}},   {"yellow", {0.88, 0.75, 0.32}},
-                                  {"orange", {0.85, 0.54, 0.25}}, {"purple", {0.52, 0.39, 0.63}},
-                                  {"grey", {0.62, 0.62, 0.62}},   {"white", {1.0, 1.0, 1.0}}};
 
-struct NamedView {
-  std::string_view name;
-  View view;
-  std::array<double, 3> from, up;  // in LPS: left, posterior, superior
-};
-constexpr NamedView kViews[] = {{"front", View::front, {0, -1, 0}, {0, 0, 1}},
-                                {"back", View::back, {0, 1, 0}, {0, 0, 1}},
-                                {"left", View::left, {1, 0, 0}, {0, 0, 1}},
-                                {"right", View::right, {-1, 0, 0}, {0, 0, 1}},
-                                {"top", View::top, {0, 0, 1}, {0, -1, 0}},
-                                {"bottom", View::bottom, {0, 0, -1}, {0, -1, 0}},
-                                {"oblique", View::oblique, {0.62, -1, 0.28}, {0, 0, 1}}};
-
-// Mean of the triangle normals at each vertex, by area. Not VTK's filter, whose threads do not
-// outlive fork().
-vtkSmartPointer<vtkFloatArray> vertex_normals(const MeshView& mesh) {
-  std::vector<Eigen::Vector3f> sums(static_cast<std::size_t>(mesh.vertex_count),
-                                    Eigen::Vector3f::Zero());
-  const auto point = [&mesh](std::int64_t v) {
-    return Eigen::Map<const Eigen::Vector3d>(mesh.positions + 3 * v);
+void check(const SceneMesh& item) {
+  const auto fits = [](const std::vector<std::uint8_t>& colors, std::int64_t items) {
+    return colors.empty() || colors.size() == 3 * static_cast<std::size_t>(items);
   };
-  std::visit(
-      [&](const auto* ids) {
-        for (std::int64_t t = 0; t < mesh.triangle_count; ++t, ids += 3) {
-          const Eigen::Vector3d a = point(ids[0]), b = point(ids[1]), c = point(ids[2]);
-          const Eigen::Vector3f normal = (b - a).cross(c - a).cast<float>();
-          for (int i = 0; i < 3; ++i) sums[static_cast<std::size_t>(ids[i])] += normal;
-        }
-      },
-      mesh.indices);
-  auto normals = vtkSmartPointer<vtkFloatArray>::New();
-  normals->SetName("Normals");
-  normals->SetNumberOfComponents(3);
-  normals->SetNumberOfTuples(mesh.vertex_count);
-  for (std::int64_t v = 0; v < mesh.vertex_count; ++v) {
-    const Eigen::Vector3f n = sums[static_cast<std::size_t>(v)].stableNormalized();
-    std::copy(n.data(), n.data() + 3, normals->GetPointer(3 * v));
-  }
-  return normals;
+  const auto refuse = [](const char* what, std::size_t bytes, std::int64_t items) {
+    throw PictureError("the colors of the " + std::string(what) + " are " + std::to_string(bytes) +
+                       " bytes, expected 3 for each of " + std::to_string(items));
+  };
+  if (!fits(item.vertex_colors, item.mesh.vertex_count))
+    refuse("vertices", item.vertex_colors.size(), item.mesh.vertex_count);
+  if (!fits(item.triangle_colors, item.mesh.triangle_count))
+    refuse("triangles", item.triangle_colors.size(), item.mesh.triangle_count);
 }
 
-vtkSmartPointer<vtkActor> make_actor(const SceneMesh& item) {
-  const vtkSmartPointer<vtkPolyData> data = borrow_polydata(item.mesh);
-  data->GetPointData()->SetNormals(vertex_normals(item.mesh));
-  vtkNew<vtkPolyDataMapper> mapper;
-  vtkNew<vtkPolyDataConnectivityFilter> largest;
-  vtkNew<vtkCleanPolyData> used;  // without the points of the other components
-  if (item.largest_only) {
-    largest->SetInputData(data);
-    largest->SetExtractionModeToLargestRegion();
-    used->SetInputConnection(largest->GetOutputPort());
-    used->PointMergingOff();
-    mapper->SetInputConnection(used->GetOutputPort());
-  } else {
-    mapper->SetInputData(data);
-  }
-  mapper->ScalarVisibilityOff();
-  auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  vtkProperty* property = actor->GetProperty();
-  property->SetColor(item.color[0], item.color[1], item.color[2]);
-  property->SetOpacity(item.opacity);
-  property->SetInterpolationToPhong();
-  property->SetAmbient(0.08);
-  property->SetDiffuse(0.92);
-  property->SetSpecular(0.18);
-  property->SetSpecularPower(24.0);
-  if (item.mesh.space == "RAS") actor->SetScale(-1.0, -1.0, 1.0);
-  return actor;
-}
-
-std::vector<vtkActor*> actors_of(vtkRenderer* renderer) {
-  std::vector<vtkActor*> actors;
-  vtkActorCollection* collection = renderer->GetActors();
-  collection->InitTraversal();
-  while (vtkActor* actor = collection->GetNextActor()) actors.push_back(actor);
-  return actors;
-}
-
-// Places the camera so that every vertex is in view, with a margin, and the picture centred.
-void place_camera(vtkRenderer* renderer, View view, double aspect) {
-  const NamedView& place = *std::find_if(std::begin(kViews), std::end(kViews),
-                                         [view](const NamedView& v) { return v.view == view; });
-  const Eigen::Vector3d from = Eigen::Map<const Eigen::Vector3d>(place.from.data()).normalized();
-  const Eigen::Vector3d up = Eigen::Map<const Eigen::Vector3d>(place.up.data());
-  const Eigen::Vector3d right = up.cross(from).normalized(), above = from.cross(right);
-  constexpr double kAngle = 20.0;  // of the view, vertically
-  const double slope = std::tan(kAngle * 3.14159265358979 / 360.0);
-  const std::array<double, 2> slopes{slope * aspect, slope};
-  // A vertex at (a, d) across and towards the eye is in view when |a − c| ≤ slope (D − d) for the
-  // centre c and the distance D of the eye: a + slope d ≤ slope D + c and −a + slope d ≤ slope D −
-  // c.
-  std::array<double, 2> most{-1e300, -1e300}, least{-1e300, -1e300};
-  double nearest = -1e300;
-  for (vtkActor* actor : actors_of(renderer)) {
-    actor->GetMapper()->Update();
-    vtkPoints* points = vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput())->GetPoints();
-    const double* scale = actor->GetScale();
-    for (vtkIdType v = 0; v < points->GetNumberOfPoints(); ++v) {
-      Eigen::Vector3d p;
-      points->GetPoint(v, p.data());
-      const Eigen::Vector3d q = p.cwiseProduct(Eigen::Vector3d(scale[0], scale[1], scale[2]));
-      const double depth = q.dot(from);
-      nearest = std::max(nearest, depth);
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        const double across = q.dot(axis == 0 ? right : above);
-        most[axis] = std::max(most[axis], across + slopes[axis] * depth);
-        least[axis] = std::max(least[axis], -across + slopes[axis] * depth);
-      }
-    }
-  }
-  double distance = nearest;
-  Eigen::Vector2d centre;
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    centre[static_cast<Eigen::Index>(axis)] = (most[axis] - least[axis]) / 2;
-    distance = std::max(distance, (most[axis] + least[axis]) / (2 * slopes[axis]));
-  }
-  constexpr double kMargin = 1.06;
-  distance = nearest + kMargin * std::max(distance - nearest, 1e-9 * (1.0 + std::abs(nearest)));
-  const Eigen::Vector3d focus = centre[0] * right + centre[1] * above + nearest * from;
-  const Eigen::Vector3d eye = centre[0] * right + centre[1] * above + distance * from;
-  vtkCamera* camera = renderer->GetActiveCamera();
-  camera->SetFocalPoint(focus[0], focus[1], focus[2]);
-  camera->SetPosition(eye[0], eye[1], eye[2]);
-  camera->SetViewUp(up[0], up[1], up[2]);
-  camera->SetViewAngle(kAngle);
-  renderer->ResetCameraClippingRange();
-}
-
-std::string draw(const std::vector<SceneMesh>& meshes, const PictureOptions& options) {
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(options.background[0], options.background[1], options.background[2]);
-  bool opaque = true;
-  for (const SceneMesh& item : meshes) {
-    if (item.mesh.triangle_count == 0) continue;
-    renderer->AddActor(make_actor(item));
-    opaque = opaque && item.opacity >= 1.0;
-  }
-  renderer->AutomaticLightCreationOff();
-  vtkNew<vtkLightKit> lights;
-  lights->SetKeyLightIntensity(0.86);
-  lights->SetKeyLightWarmth(0.54);
-  lights->SetFillLightWarmth(0.47);
-  lights->SetKeyToFillRatio(2.4);
-  lights->SetKeyToHeadRatio(3.5);
-  lights->SetKeyLightAngle(46.0, -30.0);
-  lights->AddLightsToRenderer(renderer);
-  vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(0);
-  window->SetAlphaBitPlanes(1);
-  window->SetSize(kSamples * options.width, kSamples * options.height);
-  window->AddRenderer(renderer);
-  place_camera(renderer, options.view, static_cast<double>(options.width) / options.height);
-  if (opaque) {
-    double bounds[6];
-    renderer->ComputeVisiblePropBounds(bounds);
-    const double diagonal =
-        Eigen::Vector3d(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]).norm();
-    vtkNew<vtkRenderStepsPass> steps;
-    vtkNew<vtkSSAOPass> occlusion;
-    occlusion->SetRadius(0.05 * diagonal);
-    occlusion->SetBias(0.0015 * diagonal);
-    occlusion->SetKernelSize(32);
-    occlusion->BlurOn();
-    occlusion->SetDelegatePass(steps);
-    vtkOpenGLRenderer::SafeDownCast(renderer)->SetPass(occlusion);
-  } else {
-    renderer->SetUseDepthPeeling(1);
-    renderer->SetMaximumNumberOfPeels(10);
-    renderer->SetOcclusionRatio(0.0);
-  }
-  window->Render();
-  return png_of(window, kSamples);
-}
-
-}  // namespace
-
-std::optional<View> view_named(std::string_view name) {
-  for (const NamedView& view : kViews) {
-    if (view.name == name) return view.view;
-  }
-  return std::nullopt;
-}
-
-std::optional<Color> color_named(std::string_view name) {
-  for (const NamedColor& color : kColors) {
-    if (color.name == name) return color.color;
-  }
-  unsigned value = 0;
-  if (name.size() != 7 || name[0] != '#') return std::nullopt;
-  const auto [end, error] = std::from_chars(name.data() + 1, name.data() + 7, value, 16);
-  if (error != std::errc{} || end != name.data() + 7) return std::nullopt;
-  return Color{(value >> 16) / 255.0, (value >> 8 & 255) / 255.0, (value & 255) / 255.0};
-}
-
-std::string draw_png(const std::vector<SceneMesh>& meshes, const PictureOptions& options) {
+void check(const std::vector<SceneMesh>& meshes) {
   const bool anything = std::any_of(meshes.begin(), meshes.end(), [](const SceneMesh& item) {
     return item.mesh.triangle_count > 0;
   });
   if (!anything) throw PictureError("there is no triangle to draw");
-  return draw_offscreen([&] { return draw(meshes, options); }, options.private_display);
+  for (const SceneMesh& item : meshes) check(item);
+}
+
+// One raster for each drawing.
+std::vector<Raster> render(const std::vector<Drawing>& drawings, const PictureOptions& options) {
+  std::vector<Raster> rasters;
+  if (drawings.empty()) return rasters;
+  const std::string output = draw_offscreen(
+      [&] {
+        std::string pixels;
+        for (const Drawing& drawing : drawings) {
+          const Raster raster = render_scene(*drawing.meshes, drawing.view, drawing.width,
+                                             drawing.height, options.background);
+          pixels.append(reinterpret_cast<const char*>(raster.rgb.data()), raster.rgb.size());
+        }
+        return pixels;
+      },
+      options.private_display);
+  const char* pixels = output.data();
+  for (const Drawing& drawing : drawings) {
+    rasters.push_back(make_raster(drawing.width, drawing.height, options.background));
+    std::memcpy(rasters.back().rgb.data(), pixels, rasters.back().rgb.size());
+    pixels += rasters.back().rgb.size();
+  }
+  return rasters;
+}
+
+/// Where the parts of panels are, in pixels; the same for all panels of a picture.
+struct Layout {
+  int columns = 0, rows = 0;
+  int cell_width = 0, cell_height = 0;
+  int font = 0;               ///< Height of a line.
+  int caption = 0, foot = 0;  ///< Heights above and below the body.
+  int gap = 0;                ///< Between cells.
+  [[nodiscard]] int body_height() const { return cell_height - caption - foot; }
+};
+
+Layout layout_of(const std::vector<Panel>& panels, const PictureOptions& options, int columns) {
+  Layout layout;
+  const int count = static_cast<int>(panels.size());
+  layout.columns = columns <= 0 ? count : std::min(columns, count);
+  layout.rows = (count + layout.columns - 1) / layout.columns;
+  layout.gap = std::max(2, std::min(options.width / layout.columns, options.height) / 50);
+  layout.cell_width = (options.width - (layout.columns - 1) * layout.gap) / layout.columns;
+  layout.cell_height = (options.height - (layout.rows - 1) * layout.gap) / layout.rows;
+  layout.font = std::clamp(std::min(layout.cell_width, layout.cell_height) / 20, 10, 48);
+  const auto any = [&panels](auto has) { return std::any_of(panels.begin(), panels.end(), has); };
+  if (any([](const Panel& panel) { return !panel.caption.empty(); }))
+    layout.caption = 3 * layout.font / 2;
+  if (any([](const Panel& panel) { return panel.scale.has_value(); }))
+    layout.foot = 4 * layout.font;
+  if (layout.cell_width < 32 || layout.body_height() < 32) {
+    throw PictureError("a picture of " + std::to_string(options.width) + " × " +
+                       std::to_string(options.height) + " pixels is too small for " +
+                       std::to_string(count) + " panels");
+  }
+  return layout;
+}
+
+// The size of a line that fits into a width.
+int fitting_size(const std::string& text, int size, int width, bool bold) {
+  const int needed = text_width(text, size, bold);
+  return needed <= width ? size : std::max(6, size * width / needed);
+}
+
+// From left to right: the title above the bar, the numbers below.
+void draw_bar(Raster& page, const ColorScale& scale, int x, int y, const Layout& layout,
+              const Color& ink) {
+  const int font = layout.font;
+  const int width = std::max(24, 7 * layout.cell_width / 10), height = std::max(4, 3 * font / 5);
+  const int left = x + (layout.cell_width - width) / 2;
+  const int size = fitting_size(scale.title, font, layout.cell_width, false);
+  draw_text(page, scale.title, x + layout.cell_width / 2, y + font, size, TextAlign::centre, ink);
+  const int top = y + 3 * font / 2;
+  fill(page, left - 1, top - 1, width + 2, height + 2, ink);
+  for (int column = 0; column < width; ++column) {
+    fill(page, left + column, top, 1, height, color_at(scale.map, (column + 0.5) / width));
+  }
+  const int number = 9 * font / 10;
+  const int most = std::max(2, width / (3 * number));
+  for (const Tick& tick : ticks_of(scale, most)) {
+    const int at = left + static_cast<int>(std::lround(scale.share_of(tick.value) * (width - 1)));
+    fill(page, at, top + height + 1, 1, std::max(2, font / 4), ink);
+    draw_text(page, tick.label, at, top + height + font / 4 + font, number, TextAlign::centre, ink);
+  }
+}
+
+// The largest size of the image's shape that fits, a whole multiple when it is enlarged in squares.
+Raster fitted(const Panel& panel, int width, int height) {
+  const Raster& image = panel.image;
+  double factor = std::min(static_cast<double>(width) / image.width,
+                           static_cast<double>(height) / image.height);
+  if (factor >= 1.0 && !panel.smooth_image) factor = std::floor(factor);
+  const auto scaled = [factor](int size) {
+    return std::max(1, static_cast<int>(std::floor(factor * size + 1e-9)));
+  };
+  return panel.smooth_image || factor < 1.0
+             ? resampled(image, scaled(image.width), scaled(image.height))
+             : resized(image, scaled(image.width), scaled(image.height));
+}
+
+}  // namespace
+
+std::string draw_png(const std::vector<SceneMesh>& meshes, const PictureOptions& options) {
+  check(meshes);
+  return to_png(render({{&meshes, options.view, options.width, options.height}}, options).front());
+}
+
+std::string draw_panels(const std::vector<Panel>& panels, const PictureOptions& options,
+                        int columns) {
+  if (panels.empty()) throw PictureError("there is no panel to draw");
+  for (const Panel& panel : panels) {
+    if (!panel.meshes.empty()) {
+      check(panel.meshes);
+    } else if (panel.image.rgb.empty()) {
+      throw PictureError("a panel has neither meshes nor an image");
+    }
+  }
+  const Layout layout = layout_of(panels, options, columns);
+  std::vector<Drawing> drawings;
+  for (const Panel& panel : panels) {
+    if (panel.meshes.empty()) continue;
+    drawings.push_back({&panel.meshes, panel.view.value_or(options.view), layout.cell_width,
+                        layout.body_height()});
+  }
+  const std::vector<Raster> rendered = render(drawings, options);
+  Raster page = make_raster(options.width, options.height, options.background);
+  const Color& paper = options.background;
+  const double lightness = 0.3 * paper[0] + 0.6 * paper[1] + 0.1 * paper[2];
+  const double shade = lightness > 0.5 ? 0.0 : 1.0;
+  const Color ink{shade, shade, shade};
+  std::size_t next = 0;
+  for (int i = 0; i < static_cast<int>(panels.size()); ++i) {
+    const Panel& panel = panels[static_cast<std::size_t>(i)];
+    const int x = i % layout.columns * (layout.cell_width + layout.gap);
+    const int y = i / layout.columns * (layout.cell_height + layout.gap);
+    const int body = y + layout.caption;
+    const Raster part = panel.meshes.empty()
+                            ? fitted(panel, layout.cell_width, layout.body_height())
+                            : rendered[next++];
+    paste(page, part, x + (layout.cell_width - part.width) / 2,
+          body + (layout.body_height() - part.height) / 2);
+    draw_text(page, panel.caption, x + layout.cell_width / 2, y + 6 * layout.font / 5,
+              fitting_size(panel.caption, layout.font, layout.cell_width, true), TextAlign::centre,
+              ink, true);
+    if (panel.scale) {
+      draw_bar(page, *panel.scale, x, body + layout.body_height(), layout, ink);
+    }
+  }
+  return to_png(page);
 }
 
 }  // namespace shape3d::apps

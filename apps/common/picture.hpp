@@ -1,38 +1,13 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "mesh.hpp"
 #include "private_display.hpp"
+#include "scene.hpp"
 
 namespace shape3d::apps {
-
-/// From where a patient, or any mesh in LPS, is looked at; oblique is between front, left and top.
-enum class View { front, back, left, right, top, bottom, oblique };
-
-/// By its name; empty for another word.
-[[nodiscard]] std::optional<View> view_named(std::string_view name);
-/// "front, back, left, right, top, bottom, oblique".
-inline constexpr std::string_view kViewNames = "front, back, left, right, top, bottom, oblique";
-
-using Color = std::array<double, 3>;  ///< Red, green, blue, 0 … 1.
-
-/// "#rrggbb", or one of the names in kColorNames; empty for another word.
-[[nodiscard]] std::optional<Color> color_named(std::string_view name);
-inline constexpr std::string_view kColorNames =
-    "bone, skin, red, green, blue, yellow, orange, purple, grey, white";
-
-/// One mesh of a picture. A mesh whose space is RAS is turned into LPS.
-struct SceneMesh {
-  MeshView mesh;
-  Color color{0.96, 0.92, 0.84};
-  double opacity = 1.0;       ///< 0 … 1.
-  bool largest_only = false;  ///< Only the component of the most triangles.
-};
 
 struct PictureOptions {
   int width = 1000, height = 1000;  ///< Pixels, 16 … 8192.
@@ -41,14 +16,32 @@ struct PictureOptions {
   bool private_display = false;  ///< Never the display of the environment.
 };
 
-/// Draws meshes with smooth shading, ambient occlusion (when all are opaque) and 2 × 2 samples a
-/// pixel.
+/// Draws meshes as render_scene() does.
 ///
 /// The drawing is done in a child process on the display of the environment variable DISPLAY if
 /// that is set and works, on a private Xvfb otherwise.
 /// @return PNG bytes.
-/// @throws PictureError  there is no triangle to draw; no display works.
+/// @throws PictureError  there is no triangle to draw; a list of colors does not fit its mesh; no
+/// display works.
 [[nodiscard]] std::string draw_png(const std::vector<SceneMesh>& meshes,
                                    const PictureOptions& options);
+
+/// A part of a picture: meshes or an image, with a line of text above and a color bar below.
+struct Panel {
+  std::vector<SceneMesh> meshes = {};
+  Raster image = {};          ///< Drawn when there are no meshes; as large as fits.
+  bool smooth_image = false;  ///< Mixes the pixels of an enlarged image; else they are squares.
+  std::string caption = {};   ///< Above; empty: none.
+  std::optional<ColorScale> scale = std::nullopt;  ///< Its bar is drawn below.
+  std::optional<View> view = std::nullopt;         ///< Instead of PictureOptions::view.
+};
+
+/// Draws panels of one size side by side, row after row. Text and bars are black or white,
+/// whichever stands out from the background. A picture of images alone needs no display.
+/// @param columns  Panels in a row; 0: all in one row. options.width and height are the picture's.
+/// @throws PictureError  as draw_png(); there is no panel; a panel is empty; the picture is too
+/// small for its panels (each needs 32 pixels square besides its text).
+[[nodiscard]] std::string draw_panels(const std::vector<Panel>& panels,
+                                      const PictureOptions& options, int columns = 0);
 
 }  // namespace shape3d::apps

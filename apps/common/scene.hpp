@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "color_map.hpp"
+#include "mesh.hpp"
+#include "raster.hpp"
+
+namespace shape3d::apps {
+
+/// From where a patient, or any mesh in LPS, is looked at; oblique is between front, left and top.
+enum class View { front, back, left, right, top, bottom, oblique };
+
+/// By its name; empty for another word.
+[[nodiscard]] std::optional<View> view_named(std::string_view name);
+/// "front, back, left, right, top, bottom, oblique".
+inline constexpr std::string_view kViewNames = "front, back, left, right, top, bottom, oblique";
+
+/// One mesh of a picture. A mesh whose space is RAS is turned into LPS.
+struct SceneMesh {
+  MeshView mesh;
+  Color color{0.96, 0.92, 0.84};
+  double opacity = 1.0;       ///< 0 … 1.
+  bool largest_only = false;  ///< Only the component of the most triangles.
+  /// Red, green and blue of each vertex in turn (colors_of()), instead of `color`; empty: none.
+  std::vector<std::uint8_t> vertex_colors = {};
+  /// The same of each triangle; goes before vertex_colors.
+  std::vector<std::uint8_t> triangle_colors = {};
+  bool edges = false;    ///< Draws the edges of the triangles as dark lines.
+  double shading = 1.0;  ///< 0 shows colors as they are, without light; 1 is full light and shade.
+};
+
+/// Draws meshes with smooth shading, ambient occlusion (when all are opaque and fully shaded) and
+/// 2 × 2 samples a pixel, in a window of VTK: call within draw_offscreen().
+/// @pre  At least one mesh has a triangle.
+[[nodiscard]] Raster render_scene(const std::vector<SceneMesh>& meshes, View view, int width,
+                                  int height, const Color& background);
+
+}  // namespace shape3d::apps
