@@ -1,12 +1,10 @@
+#include <cmath>
+
 #include "common/text.hpp"
 #include "segment_result.hpp"
 
 namespace shape3d::apps {
 namespace {
-
-Json numbers(const Eigen::ArrayXd& values) {
-  return std::vector<double>(values.data(), values.data() + values.size());
-}
 
 Json optional_number(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);

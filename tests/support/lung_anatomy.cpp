@@ -11,13 +11,9 @@ namespace shape3d::test {
 namespace {
 
 // The difficulty: what thresholding loses are the ends of the trees.
-#include <cstdlib>
-static double E(const char* n, double d) {
-  const char* s = getenv(n);
-  return s ? atof(s) : d;
-}
-double kTrees = E("T", 2.6e-6), kRoot = E("R", 4.0), kThinnest = E("M", 0.6),
-       kLengthFactor = E("L", 6.0);  // TUNE
+constexpr double kTrees = 90e-6;                // a sample of lung
+constexpr double kRoot = 3.0, kThinnest = 0.6;  // radii
+constexpr double kLengthFactor = 5.5;           // radii
 
 Eigen::Vector3d random_direction(RandomNumbers& random) {
   const Eigen::Vector3d v(random.normal(), random.normal(), random.normal());
@@ -51,7 +47,7 @@ double distance_to_segment(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
 LungAnatomy::LungAnatomy(const std::array<std::int64_t, 3>& dims, RandomNumbers& random)
     : dims_(static_cast<double>(dims[0]), static_cast<double>(dims[1]),
             static_cast<double>(dims[2])) {
-  const Eigen::Vector3d axes = dims_.cwiseProduct(Eigen::Vector3d(E("AX",.215),E("AY",.44),1.3));
+  const Eigen::Vector3d axes = dims_.cwiseProduct(Eigen::Vector3d(0.21, 0.43, 1.3));
   lungs_[0] = {dims_.cwiseProduct(Eigen::Vector3d(0.255, 0.5, 0.5)), axes};
   lungs_[1] = {dims_.cwiseProduct(Eigen::Vector3d(0.745, 0.5, 0.5)), axes};
   place_nodules(random);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bitset>
-#include <cstdlib>
 #include <cmath>
 #include <stdexcept>
 
@@ -12,7 +11,7 @@
 namespace shape3d::test {
 namespace {
 
-double kBlur = getenv("B")?atof(getenv("B")):.85;  // samples
+constexpr double kBlur = 0.9;  // samples
 
 // Which of the 27 points of each cell a set of shapes covers.
 class Coverage {

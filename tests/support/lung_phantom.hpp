@@ -61,7 +61,7 @@ struct LungPhantom {
 /// a vessel has a vessel through it, which is the nodule's where it is inside; that at the pleura
 /// is the part of a ball that is not in the wall.
 ///
-/// The intensity is that of the covered parts of each cell, blurred by a Gaussian of 0.65 samples,
+/// The intensity is that of the covered parts of each cell, blurred by a Gaussian of 0.9 samples,
 /// plus noise.
 /// @throws std::invalid_argument  a dimension below 24, noise_hu negative or not finite.
 /// The same samples for the same seed, but for the last bits of std::log and the like.
