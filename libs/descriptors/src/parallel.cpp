@@ -5,6 +5,7 @@
 #include <string>
 #include <thread>
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -28,7 +29,8 @@ void parallel_blocks(std::int64_t count, std::int64_t grain, int threads,
     for (std::int64_t i = 0; i < blocks; ++i) block(i);
     return;
   }
-  tbb::task_arena arena(threads);
+  // More threads than processors would not help, and TBB says so on standard error.
+  tbb::task_arena arena(std::min(threads, tbb::info::default_concurrency()));
   arena.execute([&] { tbb::parallel_for(std::int64_t{0}, blocks, block); });
 }
 

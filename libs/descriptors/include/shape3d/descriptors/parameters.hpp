@@ -5,7 +5,9 @@
 
 #include "shape3d/descriptors/csm.hpp"
 #include "shape3d/descriptors/hsh.hpp"
+#include "shape3d/descriptors/sh.hpp"
 #include "shape3d/descriptors/shape_distribution.hpp"
+#include "shape3d/descriptors/spherical_image.hpp"
 #include "shape3d/descriptors/voxelize.hpp"
 
 namespace shape3d::descriptors {
@@ -56,11 +58,24 @@ struct RandomParameters {
 /// Which spherical image.
 enum class SphericalImageKind { sni, sci, sgi };
 
+/// Which numbers of the coefficients of a spherical image are the vector.
+enum class SphericalForm {
+  amplitudes,  ///< sh_amplitudes(), component after component: the dissertation's, of one pose.
+  norms,       ///< sh_norms(): K + 1 numbers, invariant under rotation.
+  roots        ///< sh_component_roots(): 3(K + 1) numbers, invariant under rotation; not of sci.
+};
+
 /// `sni`, `sci`, `sgi`: spherical harmonics of a spherical image (section 4.4).
 struct SphericalParameters {
   SphericalImageKind image = SphericalImageKind::sni;
-  int K = 16;
+  int K = 16;     ///< Largest degree, 0 … sh_largest_degree(size).
   int size = 64;  ///< Rows of the image; it has twice as many columns.
+  SphericalForm form = SphericalForm::norms;
+  /// Of the amplitudes of sni and sgi, 1 … 3: the first so many of x, y, z. The dissertation has 2,
+  /// (K+2)(K+1) numbers, since N_z follows from N_x and N_y but for its sign.
+  int components = 2;
+  ImageSampling sampling = ImageSampling::area;
+  ShRoute route = ShRoute::fft;
 };
 
 using Parameters = std::variant<HshParameters, CsmParameters, D2Parameters, EgiParameters,

@@ -29,7 +29,7 @@ struct EvolveOptions {
   int max_iterations = 1000;  ///< At least 1.
   /// Stop when the mean displacement of the front per unit of time is less (mm over mm: 1 is the
   /// speed of a front with F = 1). At least 0.
-  double tolerance = 0.002;
+  double tolerance = 0.01;
   /// Δt · (max |F| · √Σ h⁻² + 2 ε max k Σ h⁻²) of a step; in (0, 1).
   double cfl = 0.9;
   double curvature = 0.0;  ///< ε, mm; 0: no curvature term.

@@ -17,8 +17,10 @@ struct HistogramOptions {
   int max_bins = 4096;
   /// Samples of this value are padding and left out.
   std::optional<double> padding;
-  /// Without `padding`: take the least value for padding when it is alone. It is alone when no
-  /// sample lies within 2 % of the range above it, and at least 1 in 1000 samples has it.
+  /// Without `padding`: take the least value for padding when it stands out as a peak. It does when
+  /// 1 in 1000 to 1 in 4 of the samples have it, more than 20 times as many as the bins of the 2 %
+  /// of the range above it hold on average, and the others are not all equal. Values clipped at the
+  /// least that a scanner writes make such a peak, too.
   bool detect_padding = true;
   int threads = 0;  ///< 0: all processors. The result does not depend on it.
 };

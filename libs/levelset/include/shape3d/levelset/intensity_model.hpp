@@ -41,6 +41,9 @@ class SHAPE3D_LEVELSET_EXPORT IntensityModel {
   [[nodiscard]] const std::vector<bool>& inside() const { return inside_; }
   /// Classes on both sides.
   [[nodiscard]] bool two_sided() const;
+  /// The classes inside are all those above some class, or all those below one: Λ is monotone, and
+  /// a boundary has one intensity.
+  [[nodiscard]] bool is_split() const;
 
   [[nodiscard]] double density_inside(double u) const;   ///< P_in(u).
   [[nodiscard]] double density_outside(double u) const;  ///< P_out(u).

@@ -28,7 +28,7 @@ struct GaussianMixture {
 enum class MixtureMethod {
   em,            ///< Expectation-maximisation from means at quantiles of H: no randomness.
   stochastic_em  ///< The class of each sample is drawn (Masson and Pieczynski); several runs from
-                 ///< random starts, the one of least Calibration scope is kept.
+                 ///< random starts, the one of least misfit() is kept.
 };
 
 /// Settings of fit_mixture().
@@ -40,7 +40,7 @@ struct MixtureOptions {
   double tolerance = 1e-7;  ///< EM stops when the log-likelihood per sample rises by less.
   int chain = 60;          ///< SEM: iterations of one run; at least 2. The second half is averaged.
   int runs = 5;            ///< SEM: runs with different random numbers; at least 1.
-  std::uint64_t seed = 1;  ///< SEM. The same seed gives the same bytes on any machine.
+  std::uint64_t seed = 1;  ///< SEM. The same seed gives the same result.
   /// No σ_k² falls under (min_deviation · range of H)², nor under a twelfth of the squared bin
   /// width.
   double min_deviation = 0.002;

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+namespace shape3d::levelset::detail {
+
+/// A row of nodes of a padded field and the four rows beside it.
+struct RowView {
+  const float* center;
+  const float *y_minus, *y_plus, *z_minus, *z_plus;
+};
+
+inline RowView row_view(const float* center, std::int64_t row, std::int64_t slice) {
+  return {center, center - row, center + row, center - slice, center + slice};
+}
+
+/// What the distance loops need of a grid.
+struct Spacings {
+  float h[3];        ///< mm
+  float inverse[3];  ///< 1/h
+  float weight[3];   ///< 1/h²
+
+  explicit Spacings(const Eigen::Vector3d& spacing) {
+    for (int a = 0; a < 3; ++a) {
+      h[a] = static_cast<float>(spacing[a]);
+      inverse[a] = static_cast<float>(1.0 / spacing[a]);
+      weight[a] = inverse[a] * inverse[a];
+    }
+  }
+};
+
+/// The field whose zero set is meant: sign · (f − level).
+struct LevelOf {
+  float level = 0.0F, sign = 1.0F;
+};
+
+/// What nodes that are not beside the zero set get.
+enum class Far {
+  cut,  ///< ±limit.
+  kept  ///< What they have, cut at ±limit: a start for relax_distance() that is nearly right.
+};
+
+/// Signed distance of the nodes beside the zero set, 0 at zeros.
+///
+/// A node is beside it when one of its six neighbours has the other sign or is zero. The crossing
+/// of a lattice edge is placed by linear interpolation; with crossings at t_x, t_y, t_z along the
+/// axes (the nearer of the two sides) the plane through them is at (Σ t⁻²)^(−½). Where both sides
+/// of an axis are crossed the object is one node thin and has no such plane: there it is the least
+/// t, which leaves the crossings where they are.
+/// @return  The number of nodes beside the zero set.
+int distance_beside(const RowView& field, LevelOf level, int count, const Spacings& spacings,
+                    float limit, Far far, float* out);
+
+/// One step of Jacobi's kind of the eikonal equation |∇d| = 1 (Rouy and Tourin's upwind scheme) at
+/// the nodes that are not beside the zero set; those keep their value. After n steps the nodes that
+/// are n away from them are right.
+void relax_distance(const RowView& distance, int count, const Spacings& spacings, float limit,
+                    float* out);
+
+}  // namespace shape3d::levelset::detail

@@ -1,0 +1,79 @@
+#include "padded_field.hpp"
+
+#include <algorithm>
+
+#include "parallel.hpp"
+
+namespace shape3d::levelset::detail {
+
+Field pad(const Lattice& lattice, const Field& dense, int threads) {
+  Field field(lattice.padded.size());
+  parallel_for(lattice.tiles.size(), threads, [&](std::int64_t t) {
+    const Tile tile = lattice.tiles[t];
+    lattice.for_rows(tile, [&](std::int64_t to, std::int64_t from, int count) {
+      std::copy_n(dense.data() + from, count, field.data() + to);
+    });
+    set_ghosts(lattice, tile, field.data());
+  });
+  return field;
+}
+
+Field unpad(const Lattice& lattice, const Field& padded, int threads) {
+  Field field(lattice.grid.size());
+  parallel_for(lattice.tiles.size(), threads, [&](std::int64_t t) {
+    lattice.for_rows(lattice.tiles[t], [&](std::int64_t from, std::int64_t to, int count) {
+      std::copy_n(padded.data() + from, count, field.data() + to);
+    });
+  });
+  return field;
+}
+
+void set_ghosts(const Lattice& lattice, const Tile& tile, float* field) {
+  const PaddedLattice& p = lattice.padded;
+  const float* floor = lattice.ghost_floor;
+  const bool low_x = tile.x0 == 0, high_x = tile.x1 == p.nx;
+  const bool low_y = tile.y0 == 0, high_y = tile.y1 == p.ny;
+  const bool low_z = tile.z0 == 0, high_z = tile.z1 == p.nz;
+  if (!(low_x || high_x || low_y || high_y || low_z || high_z)) return;
+  if (low_x || high_x) {
+    lattice.for_rows(tile, [&](std::int64_t row, std::int64_t /*dense*/, int count) {
+      if (low_x) field[row - 1] = std::max(field[row], floor[0]);
+      if (high_x) field[row + count] = std::max(field[row + count - 1], floor[0]);
+    });
+  }
+  // Rows and slices include the ghosts set before them.
+  const std::int64_t x0 = tile.x0 - (low_x ? 1 : 0), x1 = tile.x1 + (high_x ? 1 : 0);
+  const auto copy_row = [&](std::int64_t from, std::int64_t to, float least) {
+    for (std::int64_t i = 0; i < x1 - x0; ++i) field[to + i] = std::max(field[from + i], least);
+  };
+  for (std::int64_t k = tile.z0; k < tile.z1; ++k) {
+    if (low_y) copy_row(p.index(x0, 0, k), p.index(x0, -1, k), floor[1]);
+    if (high_y) copy_row(p.index(x0, p.ny - 1, k), p.index(x0, p.ny, k), floor[1]);
+  }
+  for (std::int64_t j = tile.y0 - (low_y ? 1 : 0); j < tile.y1 + (high_y ? 1 : 0); ++j) {
+    if (low_z) copy_row(p.index(x0, j, 0), p.index(x0, j, -1), floor[2]);
+    if (high_z) copy_row(p.index(x0, j, p.nz - 1), p.index(x0, j, p.nz), floor[2]);
+  }
+}
+
+int tile_distance_beside(const Lattice& lattice, const Tile& tile, LevelOf level, float limit,
+                         Far far, const float* field, float* out) {
+  int found = 0;
+  lattice.for_rows(tile, [&](std::int64_t row, std::int64_t /*dense*/, int count) {
+    found += distance_beside(row_view(field + row, lattice.padded.row, lattice.padded.slice), level,
+                             count, lattice.spacings, limit, far, out + row);
+  });
+  set_ghosts(lattice, tile, out);
+  return found;
+}
+
+void tile_relax(const Lattice& lattice, const Tile& tile, float limit, const float* distance,
+                float* out) {
+  lattice.for_rows(tile, [&](std::int64_t row, std::int64_t /*dense*/, int count) {
+    relax_distance(row_view(distance + row, lattice.padded.row, lattice.padded.slice), count,
+                   lattice.spacings, limit, out + row);
+  });
+  set_ghosts(lattice, tile, out);
+}
+
+}  // namespace shape3d::levelset::detail
