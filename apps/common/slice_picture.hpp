@@ -32,7 +32,7 @@ struct SlicePanel {
 
 struct SlicePage {
   int columns = 3;                ///< 1 … 16.
-  int width = 520, height = 560;  ///< Pixels of each panel, 64 … 4096; of all, at most 16384.
+  int width = 520, height = 560;  ///< Pixels of each panel, 128 … 4096; of all, at most 16384.
   bool private_display = false;   ///< Never the display of the environment.
 };
 
