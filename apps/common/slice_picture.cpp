@@ -11,7 +11,6 @@
 #include <vtkContextView.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
 #include <vtkPen.h>
 #include <vtkRect.h>
 #include <vtkRenderWindow.h>
@@ -101,13 +100,14 @@ vtkSmartPointer<vtkImageData> grey_image(const SlicePanel& panel, const SlicePla
   return image;
 }
 
-}  // namespace
-
-// One panel as an item of VTK's 2D scene. Outside the unnamed namespace for vtkStandardNewMacro.
+// One panel as an item of VTK's 2D scene.
 class SliceItem : public vtkContextItem {
  public:
-  vtkTypeMacro(SliceItem, vtkContextItem);
-  static SliceItem* New();
+  static SliceItem* New() {
+    auto* item = new SliceItem;
+    item->InitializeObjectBase();
+    return item;
+  }
   SliceItem(const SliceItem&) = delete;
   SliceItem& operator=(const SliceItem&) = delete;
 
@@ -177,58 +177,54 @@ class SliceItem : public vtkContextItem {
   vtkSmartPointer<vtkImageData> image_;
 };
 
-vtkStandardNewMacro(SliceItem)
-
-    namespace {
-  std::string draw(const std::vector<SlicePanel>& panels, const SlicePage& page) {
-    const int columns = std::min(page.columns, static_cast<int>(panels.size()));
-    const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
-    vtkNew<vtkContextView> view;
-    view->GetRenderWindow()->SetOffScreenRendering(1);
-    view->GetRenderWindow()->SetSize(columns * page.width, rows * page.height);
-    view->GetRenderWindow()->SetMultiSamples(8);
-    view->GetRenderer()->SetBackground(1, 1, 1);
-    for (std::size_t n = 0; n < panels.size(); ++n) {
-      const int column = static_cast<int>(n) % columns, row = static_cast<int>(n) / columns;
-      vtkNew<SliceItem> item;
-      item->set(panels[n], {static_cast<float>(column * page.width),
-                            static_cast<float>((rows - 1 - row) * page.height),
-                            static_cast<float>(page.width), static_cast<float>(page.height)});
-      view->GetScene()->AddItem(item);
-    }
-    view->Render();
-    return png_of(view->GetRenderWindow());
+std::string draw(const std::vector<SlicePanel>& panels, const SlicePage& page) {
+  const int columns = std::min(page.columns, static_cast<int>(panels.size()));
+  const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
+  vtkNew<vtkContextView> view;
+  view->GetRenderWindow()->SetOffScreenRendering(1);
+  view->GetRenderWindow()->SetSize(columns * page.width, rows * page.height);
+  view->GetRenderWindow()->SetMultiSamples(8);
+  view->GetRenderer()->SetBackground(1, 1, 1);
+  for (std::size_t n = 0; n < panels.size(); ++n) {
+    const int column = static_cast<int>(n) % columns, row = static_cast<int>(n) / columns;
+    vtkNew<SliceItem> item;
+    item->set(panels[n], {static_cast<float>(column * page.width),
+                          static_cast<float>((rows - 1 - row) * page.height),
+                          static_cast<float>(page.width), static_cast<float>(page.height)});
+    view->GetScene()->AddItem(item);
   }
+  view->Render();
+  return png_of(view->GetRenderWindow());
+}
 
-  void require(bool condition, const std::string& sentence) {
-    if (!condition) throw std::invalid_argument(sentence);
-  }
+void require(bool condition, const std::string& sentence) {
+  if (!condition) throw std::invalid_argument(sentence);
+}
 
-  void validate(const std::vector<SlicePanel>& panels, const SlicePage& page) {
-    require(!panels.empty(), "panels is empty; expected one or more");
-    require(page.columns >= 1 && page.columns <= 16,
-            "columns is " + std::to_string(page.columns) + "; expected 1 to 16");
-    const auto rows = (static_cast<std::int64_t>(panels.size()) + page.columns - 1) / page.columns;
-    for (const auto& [name, pixels, count] :
-         {std::tuple{"width", page.width, std::int64_t{page.columns}},
-          std::tuple{"height", page.height, rows}}) {
-      require(pixels >= 128 && pixels <= 4096 && pixels * count <= 16384,
-              std::string(name) + " is " + std::to_string(pixels) + " pixels for each of " +
-                  std::to_string(count) +
-                  " panels; expected 128 to 4096, and at most 16384 in all");
-    }
-    for (const SlicePanel& panel : panels) {
-      zmc::validate(panel.volume);
-      require(panel.axis >= 0 && panel.axis <= 2,
-              "axis is " + std::to_string(panel.axis) + "; expected 0, 1 or 2");
-      const std::int64_t slices = panel.volume.dims[static_cast<std::size_t>(panel.axis)];
-      require(panel.slice >= 0 && panel.slice < slices, "slice is " + std::to_string(panel.slice) +
-                                                            "; expected 0 to " +
-                                                            std::to_string(slices - 1));
-      require(panel.white > panel.black, "white is " + to_text(panel.white) +
-                                             "; expected more than black, " + to_text(panel.black));
-    }
+void validate(const std::vector<SlicePanel>& panels, const SlicePage& page) {
+  require(!panels.empty(), "panels is empty; expected one or more");
+  require(page.columns >= 1 && page.columns <= 16,
+          "columns is " + std::to_string(page.columns) + "; expected 1 to 16");
+  const auto rows = (static_cast<std::int64_t>(panels.size()) + page.columns - 1) / page.columns;
+  for (const auto& [name, pixels, count] :
+       {std::tuple{"width", page.width, std::int64_t{page.columns}},
+        std::tuple{"height", page.height, rows}}) {
+    require(pixels >= 128 && pixels <= 4096 && pixels * count <= 16384,
+            std::string(name) + " is " + std::to_string(pixels) + " pixels for each of " +
+                std::to_string(count) + " panels; expected 128 to 4096, and at most 16384 in all");
   }
+  for (const SlicePanel& panel : panels) {
+    zmc::validate(panel.volume);
+    require(panel.axis >= 0 && panel.axis <= 2,
+            "axis is " + std::to_string(panel.axis) + "; expected 0, 1 or 2");
+    const std::int64_t slices = panel.volume.dims[static_cast<std::size_t>(panel.axis)];
+    require(panel.slice >= 0 && panel.slice < slices, "slice is " + std::to_string(panel.slice) +
+                                                          "; expected 0 to " +
+                                                          std::to_string(slices - 1));
+    require(panel.white > panel.black, "white is " + to_text(panel.white) +
+                                           "; expected more than black, " + to_text(panel.black));
+  }
+}
 
 }  // namespace
 
