@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -11,20 +12,22 @@
 #include <system_error>
 
 #include <unistd.h>
-#include <shape3d/zmc/extract.hpp>
+#include <shape3d/zmc/extractor.hpp>
 
 namespace shape3d::bench {
 namespace {
 
 // Each is next to what it is compared with.
-constexpr SubjectName kFast[] = {{Method::zmc_compact, 1},         {Method::flying_edges, 1},
-                                 {Method::zmc_compact_reused, 1},  {Method::zmc_compact_reused, 2},
-                                 {Method::flying_edges, 2},        {Method::zmc_compact, 2},
-                                 {Method::zmc_centroid, 1},        {Method::zmc_centroid_reused, 1},
-                                 {Method::zmc_centroid_reused, 2}, {Method::zmc_centroid, 2}};
+constexpr SubjectName kFast[] = {
+    {Method::zmc_compact, 1},         {Method::flying_edges, 1},
+    {Method::zmc_compact_reused, 1},  {Method::zmc_compact_reused, 2},
+    {Method::flying_edges, 2},        {Method::zmc_compact, 2},
+    {Method::zmc_centroid, 1},        {Method::zmc_centroid_reused, 1},
+    {Method::zmc_centroid_reused, 2}, {Method::zmc_centroid, 2},
+    {Method::zmc_filter, 1},          {Method::zmc_filter, 2},
+    {Method::zmc_attributes, 1},      {Method::flying_edges_attributes, 1}};
 constexpr SubjectName kSlow[] = {
     {Method::marching_cubes, 1}, {Method::marching_cubes, 2}, {Method::lewiner, 1}};
-constexpr std::size_t kFewestSlowRounds = 3;
 
 /// The samples in a file for other processes.
 class SampleFile {
@@ -123,7 +126,7 @@ std::vector<Running> start(const SubjectName* first, const SubjectName* last, co
     result.name = *first;
     try {
       running.push_back({&result, make_subject(*first, source)});
-      result.own_process = run_in_own_process(*first, source);
+      if (peak_is_reported(*first)) result.own_process = run_in_own_process(*first, source);
     } catch (const std::exception& error) {
       result.missing = error.what();
       if (!running.empty() && running.back().result == &result) running.pop_back();
@@ -161,6 +164,39 @@ void measure_zero_price(const Source& source, std::size_t rounds, VolumeResult& 
   }
 }
 
+void measure_one_pass(const LoadedVolume& volume, std::size_t rounds, VolumeResult& result) {
+  const zmc::VolumeView& view = volume.view;
+  const auto count = static_cast<std::int64_t>(volume.samples.size() / zmc::sample_size(view.type));
+  double least = sample_at(view, 0), largest = least;
+  for (std::int64_t i = 0; i < count; i += 7) {
+    least = std::min(least, sample_at(view, i));
+    largest = std::max(largest, sample_at(view, i));
+  }
+  std::vector<double> isovalues;
+  for (int n = 0; n < 4; ++n) {
+    isovalues.push_back(volume.isovalue + n * std::ceil((largest - volume.isovalue) / 16));
+  }
+  zmc::Options options;
+  options.inside = zmc::Inside::above;
+  options.threads = 1;
+  zmc::Extractor single, several;
+  std::vector<zmc::Surface<float, std::int32_t>> one(isovalues.size()), all;
+  const auto seconds = [](const auto& work) {
+    const std::clock_t start = std::clock();  // of the processor
+    work();
+    return static_cast<double>(std::clock() - start);
+  };
+  for (std::size_t round = 0; round <= rounds; ++round) {
+    const double apart = seconds([&] {
+      for (std::size_t n = 0; n < isovalues.size(); ++n) {
+        single.extract(view, isovalues[n], options, one[n]);
+      }
+    });
+    const double together = seconds([&] { several.extract(view, isovalues, options, all); });
+    if (round > 0) result.one_pass_gain.push_back(apart / together);  // the first makes the memory
+  }
+}
+
 }  // namespace
 
 const SubjectResult* VolumeResult::find(Method method, int threads) const {
@@ -190,13 +226,14 @@ VolumeResult compare(const LoadedVolume& volume, const ComparisonOptions& option
   std::vector<double> slow_spent(slow.size());
   std::size_t round = 0;
   const std::size_t least = static_cast<std::size_t>(options.least_rounds),
-                    most = static_cast<std::size_t>(options.most_rounds);
+                    most = static_cast<std::size_t>(options.most_rounds),
+                    slow_rounds = static_cast<std::size_t>(options.slow_rounds);
   for (; round < least || (round < most && spent < options.seconds); ++round) {
     for (std::size_t i = 0; i < fast.size(); ++i) {
       spent += run_once(fast[round % 2 == 0 ? i : fast.size() - 1 - i]);
     }
     for (std::size_t i = 0; i < slow.size(); ++i) {
-      if (round < kFewestSlowRounds || slow_spent[i] < options.seconds) {
+      if (round < slow_rounds || slow_spent[i] < options.seconds) {
         slow_spent[i] += run_once(slow[i]);
       }
     }
@@ -206,6 +243,7 @@ VolumeResult compare(const LoadedVolume& volume, const ComparisonOptions& option
       volume.isovalue == std::floor(volume.isovalue)) {
     measure_zero_price(source, round, result);
   }
+  measure_one_pass(volume, std::min<std::size_t>(round, 5), result);
   const SubjectResult* compact = result.find(Method::zmc_compact, 1);
   if (compact != nullptr) {
     result.floor = memory_floor(volume.samples.data(), volume.samples.size(),

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include <shape3d/zmc_vtk/vtkZeroCrossingMarchingCubes.h>
 #include <sys/resource.h>
 #include <vtkFlyingEdges3D.h>
 #include <vtkImageData.h>
@@ -45,15 +46,22 @@ void time(Measurement& measurement, Function&& function) {
   measurement.cpu = cpu_seconds() - cpu;
 }
 
+/// Whether surface and working memory are those of the last run.
+enum class Memory { fresh, reused };
+/// Whether normals and gradients are asked for.
+enum class Attributes { none, all };
+
 class Zmc : public Subject {
  public:
   using Surface = zmc::Surface<float, std::int32_t>;
 
-  Zmc(const Source& source, zmc::Triangulation triangulation, int threads, bool reused)
-      : source_(source), reused_(reused) {
+  Zmc(const Source& source, zmc::Triangulation triangulation, int threads, Memory memory,
+      Attributes attributes = Attributes::none)
+      : source_(source), reused_(memory == Memory::reused) {
     options_.inside = zmc::Inside::above;
     options_.triangulation = triangulation;
     options_.threads = threads;
+    options_.normals = options_.gradients = attributes == Attributes::all;
   }
 
   Measurement run() override {
@@ -74,7 +82,9 @@ class Zmc : public Subject {
     time(result, function);
     result.triangles = surface.triangle_count();
     result.vertices = surface.vertex_count();
-    result.output_bytes = static_cast<std::int64_t>(surface.positions.size() * sizeof(float) +
+    const std::size_t reals =
+        surface.positions.size() + surface.normals.size() + surface.gradients.size();
+    result.output_bytes = static_cast<std::int64_t>(reals * sizeof(float) +
                                                     surface.indices.size() * sizeof(std::int32_t));
     result.stages = surface.timings;
     return result;
@@ -111,7 +121,8 @@ int vtk_type(zmc::SampleType type) {
 template <class Filter>
 class Vtk : public Subject {
  public:
-  Vtk(const Source& source, int threads) : isovalue_(source.isovalue), threads_(threads) {
+  Vtk(const Source& source, int threads, Attributes attributes = Attributes::none)
+      : isovalue_(source.isovalue), threads_(threads), attributes_(attributes == Attributes::all) {
     const zmc::VolumeView& view = source.view;
     std::array<int, 6> extent{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -131,8 +142,8 @@ class Vtk : public Subject {
     vtkSMPTools::Initialize(threads_);
     vtkNew<Filter> filter;
     filter->SetInputData(import_->GetOutput());
-    filter->ComputeNormalsOff();
-    filter->ComputeGradientsOff();
+    filter->SetComputeNormals(attributes_);
+    filter->SetComputeGradients(attributes_);
     filter->ComputeScalarsOff();
     filter->SetValue(0, isovalue_);
     Measurement result;
@@ -148,6 +159,7 @@ class Vtk : public Subject {
   vtkNew<vtkImageImport> import_;
   double isovalue_;
   int threads_;
+  bool attributes_;
 };
 
 class Lewiner : public Subject {
@@ -212,8 +224,14 @@ std::string to_string(Method method) {
       return "ZMC compact, reused";
     case Method::zmc_centroid_reused:
       return "ZMC centroid, reused";
+    case Method::zmc_attributes:
+      return "ZMC compact, normals and gradients";
+    case Method::zmc_filter:
+      return "vtkZeroCrossingMarchingCubes";
     case Method::flying_edges:
       return "vtkFlyingEdges3D";
+    case Method::flying_edges_attributes:
+      return "vtkFlyingEdges3D, normals and gradients";
     case Method::marching_cubes:
       return "vtkMarchingCubes";
     case Method::lewiner:
@@ -226,15 +244,22 @@ std::unique_ptr<Subject> make_subject(const SubjectName& name, const Source& sou
   using zmc::Triangulation;
   switch (name.method) {
     case Method::zmc_compact:
-      return std::make_unique<Zmc>(source, Triangulation::compact, name.threads, false);
+      return std::make_unique<Zmc>(source, Triangulation::compact, name.threads, Memory::fresh);
     case Method::zmc_centroid:
-      return std::make_unique<Zmc>(source, Triangulation::centroid, name.threads, false);
+      return std::make_unique<Zmc>(source, Triangulation::centroid, name.threads, Memory::fresh);
     case Method::zmc_compact_reused:
-      return std::make_unique<Zmc>(source, Triangulation::compact, name.threads, true);
+      return std::make_unique<Zmc>(source, Triangulation::compact, name.threads, Memory::reused);
     case Method::zmc_centroid_reused:
-      return std::make_unique<Zmc>(source, Triangulation::centroid, name.threads, true);
+      return std::make_unique<Zmc>(source, Triangulation::centroid, name.threads, Memory::reused);
+    case Method::zmc_attributes:
+      return std::make_unique<Zmc>(source, Triangulation::compact, name.threads, Memory::fresh,
+                                   Attributes::all);
+    case Method::zmc_filter:
+      return std::make_unique<Vtk<vtkZeroCrossingMarchingCubes>>(source, name.threads);
     case Method::flying_edges:
       return std::make_unique<Vtk<vtkFlyingEdges3D>>(source, name.threads);
+    case Method::flying_edges_attributes:
+      return std::make_unique<Vtk<vtkFlyingEdges3D>>(source, name.threads, Attributes::all);
     case Method::marching_cubes:
       return std::make_unique<Vtk<vtkMarchingCubes>>(source, name.threads);
     case Method::lewiner:

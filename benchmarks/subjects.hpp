@@ -21,13 +21,16 @@ struct Measurement {
 };
 
 /// The extractors that are compared. All give points in float, and no normals, gradients or scalars
-/// except for scikit-image's, which cannot do without.
+/// but where they are named, and except for scikit-image's, which cannot do without normals.
 enum class Method {
   zmc_compact,
   zmc_centroid,
   zmc_compact_reused,  ///< Surface and working memory of the last extraction are used again.
   zmc_centroid_reused,
+  zmc_attributes,  ///< Compact, with normals and gradients.
+  zmc_filter,      ///< The compact surface by vtkZeroCrossingMarchingCubes.
   flying_edges,
+  flying_edges_attributes,  ///< With normals and gradients.
   marching_cubes,
   lewiner
 };

@@ -69,6 +69,11 @@ int run(int argc, char** argv) {
   program.add_option("--rounds", options.least_rounds, "Least number of rounds")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  program
+      .add_option("--slow-rounds", options.slow_rounds,
+                  "Least number for vtkMarchingCubes and scikit-image")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   program.add_option("--seconds", options.seconds, "Time for each volume, once rounds are enough")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

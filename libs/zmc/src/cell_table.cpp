@@ -182,6 +182,11 @@ CellTable generate() {
           make_config(r == 0 ? graph : apply_rules(signs, comparisons, answers), table));
     }
     table.comparisons.insert(table.comparisons.end(), comparisons.begin(), comparisons.end());
+    const CellConfig& only = table.configs[entry.first_config];
+    table.face_signs.push_back(
+        entry.comparisons != 0
+            ? CellTable::kAmbiguousFaces
+            : static_cast<std::uint16_t>(only.face_positive | only.face_negative << 6));
     table.cases.push_back(entry);
   }
   return table;

@@ -62,6 +62,10 @@ struct CellTable {
   static constexpr std::uint16_t kNoCase = 0xFFFF;
 
   std::vector<CellCase> cases;  ///< 6561, by P.
+  /// By P: face_positive | face_negative << 6 of its only configuration, or kAmbiguousFaces. Small,
+  /// since the signs of faces are asked for at places far apart.
+  std::vector<std::uint16_t> face_signs;
+  static constexpr std::uint16_t kAmbiguousFaces = 0xFFFF;
   std::vector<CellConfig> configs;
   std::vector<Comparison> comparisons;
   std::vector<std::uint8_t> slots;       ///< Triples.

@@ -1,6 +1,7 @@
 #include "count.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <mutex>
 
 #include "count_cells.hpp"
@@ -23,11 +24,11 @@ class Counter {
 
   /// Crossings, patches and inserted faces of layers [first, last).
   void count_layers(std::int64_t first, std::int64_t last) {
-    Tally tally, elsewhere;
+    std::unique_ptr<Tallies> tallies = take_tallies();
     for (std::int64_t k = first; k < last; ++k) {
       LayerPlan& layer = plan_.layers[static_cast<std::size_t>(k)];
       layer = LayerPlan{};
-      Tally& counted = in_part(k) ? tally : elsewhere;
+      Tally& counted = in_part(k) ? tallies->part : tallies->elsewhere;
       for (std::int64_t j = 0; j < lattice_.ny; ++j) count_row(j, k, layer, counted);
       find_inserted_faces(cells_, regions_, options_.zero_faces, k, layer.quads, layer.closing);
       for (const auto* faces : {&layer.quads, &layer.closing}) {
@@ -40,7 +41,7 @@ class Counter {
       }
     }
     const std::lock_guard<std::mutex> lock(mutex_);
-    tally_.add(tally);
+    idle_.push_back(std::move(tallies));
   }
 
   /// Adds the used zero samples of each row, which are known once every layer is counted.
@@ -89,19 +90,22 @@ class Counter {
   void finish() {
     const CellTable& table = cells_.table();
     Counts& counts = plan_.counts;
-    counts.patches = tally_.patches;
+    Tally tally;
+    for (const auto& tallies : idle_) tally.add(tallies->part);
+    counts.patches = tally.patches;
     const auto add_cells = [&](std::size_t p, std::int64_t cells) {
       counts.cells_with_patch += cells;
       for (const std::uint8_t c : table.cases[p].face_case) counts.faces_by_case[c - 1u] += cells;
     };
-    for (std::size_t mask = 0; mask < tally_.plain.size(); ++mask) {
-      if (tally_.plain[mask] == 0) continue;
-      add_cells(table.case_of_mask[mask], tally_.plain[mask]);
+    for (std::size_t mask = 0; mask < tables_.plain.size(); ++mask) {
+      const std::int64_t plain_cells = tally.plain[0][mask] + tally.plain[1][mask];
+      if (plain_cells == 0) continue;
+      add_cells(table.case_of_mask[mask], plain_cells);
       if (tables_.plain[mask].ambiguous == 0)
-        counts.patches += tables_.plain[mask].patches * tally_.plain[mask];
+        counts.patches += tables_.plain[mask].patches * plain_cells;
     }
-    for (std::size_t p = 0; p < tally_.by_case.size(); ++p) {
-      if (tally_.by_case[p] != 0) add_cells(p, tally_.by_case[p]);
+    for (std::size_t p = 0; p < tally.by_case.size(); ++p) {
+      if (tally.by_case[p] != 0) add_cells(p, tally.by_case[p]);
     }
     counts.all_zero_cells = regions_.cell_count();
 
@@ -148,12 +152,25 @@ class Counter {
   }
 
  private:
+  /// What threads count; kept from range to range, since they are large.
+  struct Tallies {
+    Tally part, elsewhere;
+  };
+  std::unique_ptr<Tallies> take_tallies() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (idle_.empty()) return std::make_unique<Tallies>();
+    std::unique_ptr<Tallies> taken = std::move(idle_.back());
+    idle_.pop_back();
+    return taken;
+  }
+
   bool in_part(std::int64_t k) const { return k >= plan_.part.first && k < plan_.part.last; }
 
   void count_row(std::int64_t j, std::int64_t k, LayerPlan& layer, Tally& tally) {
     RowPlan& plan = plan_.rows[static_cast<std::size_t>(lattice_.row(j, k))];
     if (j + 1 < lattice_.ny && k + 1 < lattice_.nz) {
-      plan = count_cell_row(lattice_, cells_, tables_, j, k, layer, tally);
+      plan =
+          count_cell_row(lattice_, cells_, tables_, j, k, layer, options_.count_nonmanifold, tally);
       return;
     }
     plan = RowPlan{};  // the last row or layer has no cells of its own
@@ -171,7 +188,8 @@ class Counter {
       if (a < 0) continue;
       mark_used(lattice_, face.i + kCellVertices[a][0],
                 lattice_.row(face.j + kCellVertices[a][1], k + kCellVertices[a][2]));
-      if (b >= 0) use_lattice_edge(lattice_, a, b, face.i, face.j, layer);
+      if (b >= 0 && options_.count_nonmanifold)
+        use_lattice_edge(lattice_, a, b, face.i, face.j, layer);
     }
   }
 
@@ -183,7 +201,7 @@ class Counter {
   Crossings crossings_;
   const TriangleTables& tables_;
   std::mutex mutex_;
-  Tally tally_;
+  std::vector<std::unique_ptr<Tallies>> idle_;
 };
 
 }  // namespace
@@ -197,6 +215,7 @@ bool make_plan(SignLattice& lattice, const LatticeCells& cells, const ZeroRegion
   plan.group_vertex.clear();
   plan.group_triangle.clear();
   plan.counts = Counts{};
+  plan.counts.nonmanifold_edges = options.count_nonmanifold ? 0 : -1;
   Counter counter(lattice, cells, regions, options, plan);
   const auto run = [&](void (Counter::*stage)(std::int64_t, std::int64_t)) {
     return for_layers(
@@ -204,7 +223,7 @@ bool make_plan(SignLattice& lattice, const LatticeCells& cells, const ZeroRegion
   };
   if (!run(&Counter::count_layers)) return false;
   if (!run(&Counter::count_zero_vertices)) return false;
-  if (!run(&Counter::count_nonmanifold)) return false;
+  if (options.count_nonmanifold && !run(&Counter::count_nonmanifold)) return false;
   counter.finish();
   return true;
 }

@@ -39,9 +39,14 @@ class Generator final : public CentroidSink {
 
   /// Triangles and centroids of layers [first, last).
   void layers(std::int64_t first, std::int64_t last) const {
+    Index* const triangles = surface_.indices.data();
+    const Index* const end =
+        triangles + 3 * (last < plan_.part.last
+                             ? plan_.first_triangle(lattice_.row(0, last)) - plan_.part_triangle
+                             : plan_.patch_triangles);
     for (std::int64_t k = first; k < last && k + 1 < lattice_.nz; ++k) {
       for (std::int64_t j = 0; j + 1 < lattice_.ny; ++j) {
-        generate_cell_row(cells_, plan_, tables_, *this, j, k, surface_.indices.data());
+        generate_cell_row(cells_, plan_, tables_, *this, j, k, triangles, end);
       }
       inserted_faces(k);
     }

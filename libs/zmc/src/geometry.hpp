@@ -37,6 +37,12 @@ class Geometry {
     return axes_.col(0) * ((static_cast<double>(i) - shift_) + t);
   }
 
+  /// What these terms are made of: column d of axes is the step along lattice axis d, and lattice
+  /// index and shift differ by the coordinate that it is multiplied by.
+  [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
+  [[nodiscard]] const Eigen::Matrix3d& axes() const { return axes_; }
+  [[nodiscard]] double shift(int axis) const { return axis == 2 ? z_shift_ : shift_; }
+
   /// The axes form a left-handed frame, so that triangles must be turned over.
   [[nodiscard]] bool mirrored() const { return axes_.determinant() < 0.0; }
 

@@ -84,13 +84,29 @@ class AttributeSampler {
     }
     Eigen::Vector3d g = gradient(lower);
     if (t > 0.0) g = (1.0 - t) * g + t * gradient(upper);
-    return from_gradient(to_world_ * g);
+    return from_gradient(to_world(g));
+  }
+  /// Per lattice step to per world unit. Sums are written out: write_attributes() makes the same.
+  Eigen::Vector3d to_world(const Eigen::Vector3d& g) const {
+    Eigen::Vector3d world;
+    for (Eigen::Index d = 0; d < 3; ++d) {
+      world[d] = (to_world_(d, 0) * g[0] + to_world_(d, 1) * g[1]) + to_world_(d, 2) * g[2];
+    }
+    return world;
   }
   VertexAttributes from_gradient(const Eigen::Vector3d& gradient) const {
-    const double length = gradient.stableNorm();
+    const double square =
+        (gradient[0] * gradient[0] + gradient[1] * gradient[1]) + gradient[2] * gradient[2];
+    const double length = is_plain_square(square) ? std::sqrt(square) : gradient.stableNorm();
     if (!(length > 0.0) || !std::isfinite(length)) return {gradient, Eigen::Vector3d::Zero()};
     return {gradient, outward_ * (gradient / length)};
   }
+  /// Whether a square of a length is far from overflow and underflow.
+  static bool is_plain_square(double square) { return square >= 0x1p-900 && square <= 0x1p900; }
+
+  [[nodiscard]] const Eigen::Matrix3d& world_matrix() const { return to_world_; }
+  [[nodiscard]] double outward() const { return outward_; }
+
   /// Of a surface vertex (as in CellPatches) of cell (i, j, k), with its crossing parameter.
   VertexAttributes at_surface_vertex(const AnyMagnitudeReader& magnitude, std::int64_t i,
                                      std::int64_t j, std::int64_t k, int vertex) const {

@@ -33,11 +33,7 @@ class LatticeCells {
 
   /// |sample − isovalue| at the corners of a cell, Lorensen's order; zero samples give 0.
   std::array<double, 8> magnitudes(std::int64_t i, std::int64_t j, std::int64_t k) const {
-    std::array<double, 8> m{};
-    for (int v = 0; v < 8; ++v) {
-      m[v] = magnitude_(i + kCellVertices[v][0], j + kCellVertices[v][1], k + kCellVertices[v][2]);
-    }
-    return m;
+    return magnitude_.corners(i, j, k);
   }
 
  private:

@@ -3,10 +3,12 @@
 // Access to samples of a lattice that may be surrounded by one layer of imaginary samples
 // (Border::capped).
 
+#include <array>
 #include <cstdint>
 #include <type_traits>
 
 #include "magnitude.hpp"
+#include "shape3d/zmc/cell.hpp"
 #include "shape3d/zmc/volume_view.hpp"
 
 namespace shape3d::zmc::detail {
@@ -81,6 +83,10 @@ class AnyMagnitudeReader {
   double operator()(std::int64_t i, std::int64_t j, std::int64_t k) const {
     return functions_.magnitude(view_, isovalue_, i, j, k);
   }
+  /// At the corners of cell (i, j, k), Lorensen's order.
+  std::array<double, 8> corners(std::int64_t i, std::int64_t j, std::int64_t k) const {
+    return functions_.corners(view_, isovalue_, i, j, k);
+  }
   double crossing(std::int64_t i, std::int64_t j, std::int64_t k, int axis) const {
     return functions_.crossing(view_, isovalue_, i, j, k, axis);
   }
@@ -88,6 +94,8 @@ class AnyMagnitudeReader {
  private:
   struct Functions {
     double (*magnitude)(const VolumeView&, double, std::int64_t, std::int64_t, std::int64_t);
+    std::array<double, 8> (*corners)(const VolumeView&, double, std::int64_t, std::int64_t,
+                                     std::int64_t);
     double (*crossing)(const VolumeView&, double, std::int64_t, std::int64_t, std::int64_t, int);
   };
 
@@ -96,6 +104,16 @@ class AnyMagnitudeReader {
     return {
         [](const VolumeView& view, double isovalue, std::int64_t i, std::int64_t j,
            std::int64_t k) { return Reader(view, isovalue)(i, j, k); },
+        [](const VolumeView& view, double isovalue, std::int64_t i, std::int64_t j,
+           std::int64_t k) {
+          const Reader reader(view, isovalue);
+          std::array<double, 8> m{};
+          for (int v = 0; v < 8; ++v) {
+            const auto& step = kCellVertices[v];
+            m[static_cast<std::size_t>(v)] = reader(i + step[0], j + step[1], k + step[2]);
+          }
+          return m;
+        },
         [](const VolumeView& view, double isovalue, std::int64_t i, std::int64_t j, std::int64_t k,
            int axis) { return Reader(view, isovalue).crossing(i, j, k, axis); }};
   }

@@ -70,15 +70,19 @@ inline Word below_mask(std::int64_t count, std::int64_t w) {
 }
 
 inline unsigned SignLattice::cell_mask(std::int64_t i, std::int64_t j, std::int64_t k) const {
-  // Columns at i and i + 1 of rows (j, k), (j+1, k), (j, k+1), (j+1, k+1) make the two nibbles.
+  // Two neighbouring bits of rows (j, k), (j+1, k), (j, k+1), (j+1, k+1): one to each nibble.
   const std::int64_t r[4] = {row(j, k), row(j + 1, k), row(j, k + 1), row(j + 1, k + 1)};
+  const int shift = static_cast<int>(i & 63);
+  const auto pair = [&](const Word* bits) {
+    const Word* word = bits + (i >> 6);
+    Word two = load(word) >> shift;
+    if (shift == 63) two |= load(word + 1) << 1;
+    return static_cast<unsigned>((two & 1u) | (two & 2u) << 3);
+  };
   unsigned n = 0, z = 0;
   for (int c = 0; c < 4; ++c) {
-    for (int x = 0; x < 2; ++x) {
-      const std::int64_t at = i + x;
-      n |= static_cast<unsigned>((load(n_row(r[c]) + (at >> 6)) >> (at & 63)) & 1u) << (c + 4 * x);
-      z |= static_cast<unsigned>((z_row(r[c])[at >> 6] >> (at & 63)) & 1u) << (c + 4 * x);
-    }
+    z |= pair(z_row(r[c])) << c;
+    n |= pair(n_row(r[c])) << c;
   }
   return (n & ~z) | (z << 8);
 }

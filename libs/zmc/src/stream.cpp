@@ -95,7 +95,9 @@ void add(Counts& total, const Counts& slab) {
   total.closing_triangles += slab.closing_triangles;
   total.masked_cells += slab.masked_cells;
   total.centroids += slab.centroids;
-  total.nonmanifold_edges += slab.nonmanifold_edges;
+  if (slab.nonmanifold_edges >= 0)
+    total.nonmanifold_edges =
+        std::max<std::int64_t>(0, total.nonmanifold_edges) + slab.nonmanifold_edges;
 }
 
 template <class Real>

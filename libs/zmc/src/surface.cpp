@@ -11,19 +11,19 @@ namespace {
 
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
 
-/// Arrays from this size on are aligned to huge pages.
-constexpr std::size_t kLarge = 4 * kHugePage;
-
 }  // namespace
 
 void* allocate_array(std::size_t bytes) {
 #ifdef __linux__
-  if (bytes >= kLarge) {
-    const std::size_t rounded = (bytes + kHugePage - 1) / kHugePage * kHugePage;
+  if (bytes >= kHugePage) {
+    const std::size_t whole = bytes / kHugePage * kHugePage;
+    const std::size_t rounded = whole == bytes ? bytes : whole + kHugePage;
     if (rounded < bytes) throw std::bad_alloc();
     void* array = std::aligned_alloc(kHugePage, rounded);
     if (array == nullptr) throw std::bad_alloc();
-    madvise(array, rounded, MADV_HUGEPAGE);  // a hint: without huge pages nothing changes
+    // A hint: without huge pages nothing changes. The last page, of which only a part is used,
+    // stays in small ones, so that no more memory is taken than is written.
+    madvise(array, whole, MADV_HUGEPAGE);
     return array;
   }
 #endif

@@ -1,5 +1,7 @@
 #include "triangles.hpp"
 
+#include <algorithm>
+
 namespace shape3d::zmc::detail {
 namespace {
 
@@ -14,8 +16,13 @@ TriangleTables make_tables(Triangulation triangulation, bool mirrored) {
                               static_cast<std::uint8_t>(cell_case.comparisons != 0),
                               config.zero_vertices, config.zero_edges, config.patches});
   }
-  for (unsigned mask = 0; mask < 256; ++mask)
-    tables.plain[mask] = tables.by_case[table.case_of_mask[mask]];
+  for (unsigned mask = 0; mask < 256; ++mask) {
+    const PatternTriangles& pattern = tables.plain[mask] = tables.by_case[table.case_of_mask[mask]];
+    tables.counts[mask] = pattern.ambiguous != 0
+                              ? TriangleTables::kAmbiguous
+                              : pattern.triangles | static_cast<std::uint32_t>(pattern.centroids)
+                                                        << 16;
+  }
   constexpr std::size_t kPadding = 64;  // vector loads may read beyond the last triangle
   tables.lanes.reserve(table.slots.size() + kPadding);
   for (std::size_t t = 0; t < table.slots.size(); ++t) {
@@ -25,6 +32,18 @@ TriangleTables make_tables(Triangulation triangulation, bool mirrored) {
         slot < kSlots ? kSlotLane[slot] : static_cast<std::uint8_t>(kCentroidLane + slot - kSlots));
   }
   tables.lanes.resize(tables.lanes.size() + kPadding, 0);
+  for (unsigned mask = 0; mask < 256; ++mask) {
+    const PatternTriangles& pattern = tables.plain[mask];
+    PlainCell& cell = tables.cells[mask];
+    cell.triangles = pattern.triangles;
+    const bool simple = pattern.ambiguous == 0 && pattern.centroids == 0 &&
+                        3u * pattern.triangles <= cell.lanes.size();
+    cell.special = simple ? 0 : 1;
+    if (simple)
+      std::copy_n(&tables.lanes[pattern.first], 3 * pattern.triangles, cell.lanes.begin());
+    for (unsigned lane = 0; lane < 8; ++lane)
+      cell.steps[lane] = (crossing_lanes(mask, 0) >> lane) & 1u;
+  }
   return tables;
 }
 

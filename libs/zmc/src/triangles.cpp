@@ -38,6 +38,7 @@ struct RowJob {
   const CentroidSink& centroids;
   std::int64_t j, k;
   Index* out;
+  const Index* end;  ///< Until where nothing is written yet.
   CornerBytes corner_bytes;
 };
 
@@ -58,7 +59,7 @@ struct RunningIds {
       zero[r] = first + static_cast<Index>(p.x) + static_cast<Index>(p.y) + static_cast<Index>(p.z);
     }
     centroid = zero[0];
-    if ((row.any_flags & kRowZero) == 0) return;
+    if ((row.any_flags & kRowZero) == 0 || plan.counts.centroids == 0) return;
     for (std::int64_t w = 0; w < lattice.words; ++w) {
       centroid += static_cast<Index>(popcount(load(row.n[0] + w) & row.z[0][w]));
     }
@@ -164,6 +165,152 @@ SHAPE3D_ZMC_TARGET_AVX2 void generate_avx2(const RowJob<Index>& job, const CellR
   generate_body<Zeros>(job, row);
 }
 
+/// What look_up() and the ids of a cell with zeros or special patterns need, of one word.
+struct WordState {
+  std::int64_t w;
+  const std::array<Word, 4>* used;
+  const std::uint8_t *negative, *zero;
+};
+
+/// Writes the triangles of a cell whatever it is, from the ids of the crossings at its low end in
+/// `next` and those at its high end in `beyond`.
+template <bool Zeros>
+SHAPE3D_ZMC_TARGET_AVX2 __attribute__((noinline)) std::int32_t* put_any_cell(
+    const RowJob<std::int32_t>& job, const WordState& word, int b, const std::int32_t* beyond,
+    RunningIds<std::int32_t>& next, std::int32_t* out) {
+  std::array<std::int32_t, kLanes> id;
+  for (int lane = 0; lane < 8; ++lane) id[lane] = next.crossing[lane];
+  for (int lane = 4; lane < 8; ++lane) id[lane + 8] = beyond[lane];
+  const unsigned zero = Zeros ? word.zero[b] : 0;
+  if (zero != 0) {
+    const Word below = (Word{1} << b) - 1;
+    for (int r = 0; r < 4; ++r) {
+      const Word used = (*word.used)[r];
+      id[kZeroLane + r] = next.zero[r] + popcount(used & below);
+      id[kZeroLane + 4 + r] = id[kZeroLane + r] + static_cast<int>((used >> b) & 1u);
+    }
+  }
+  auto [lane, triangles] = look_up<Zeros>(job, word.negative[b], zero, 64 * word.w + b,
+                                          next.centroid, id.data() + kCentroidLane);
+  for (; triangles > 0; --triangles, lane += 3, out += 3) {
+    for (int corner = 0; corner < 3; ++corner) out[corner] = id[lane[corner]];
+  }
+  return out;
+}
+
+SHAPE3D_ZMC_TARGET_AVX2 __m256i load_bytes(const std::uint8_t* bytes) {
+  return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(bytes)));
+}
+
+SHAPE3D_ZMC_TARGET_AVX2 __m256i choose(__m256i a, __m256i b, __m256i sign) {
+  return _mm256_castps_si256(
+      _mm256_blendv_ps(_mm256_castsi256_ps(a), _mm256_castsi256_ps(b), _mm256_castsi256_ps(sign)));
+}
+
+/// Writes the ids of eight lanes: 0 … 7 of the low end, 8 … 15 of the high end.
+SHAPE3D_ZMC_TARGET_AVX2 void put_ids(const std::uint8_t* lane, __m256i low, __m256i high,
+                                     std::int32_t* out) {
+  const __m256i lanes = load_bytes(lane);
+  const __m256i ids =
+      choose(_mm256_permutevar8x32_epi32(low, lanes), _mm256_permutevar8x32_epi32(high, lanes),
+             _mm256_slli_epi32(lanes, 28));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), ids);
+}
+
+/// The same, and 16 … 23 of the zeros.
+SHAPE3D_ZMC_TARGET_AVX2 void put_ids(const std::uint8_t* lane, __m256i low, __m256i high,
+                                     __m256i zeros, std::int32_t* out) {
+  const __m256i lanes = load_bytes(lane);
+  const __m256i crossings =
+      choose(_mm256_permutevar8x32_epi32(low, lanes), _mm256_permutevar8x32_epi32(high, lanes),
+             _mm256_slli_epi32(lanes, 28));
+  const __m256i ids =
+      choose(crossings, _mm256_permutevar8x32_epi32(zeros, lanes), _mm256_slli_epi32(lanes, 27));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), ids);
+}
+
+/// Ids of the used zeros round cell b of a word, at its low end and at its high end.
+SHAPE3D_ZMC_TARGET_AVX2 __m256i zero_ids(const std::array<std::int32_t, 4>& next,
+                                         const std::array<Word, 4>& used, int b) {
+  static_assert(kZeroLane == 16);
+  alignas(32) std::array<std::int32_t, 8> ids;
+  const Word below = (Word{1} << b) - 1;
+  for (std::size_t r = 0; r < 4; ++r) {
+    ids[r] = next[r] + popcount(used[r] & below);
+    ids[r + 4] = ids[r] + static_cast<int>((used[r] >> b) & 1u);
+  }
+  return _mm256_load_si256(reinterpret_cast<const __m256i*>(ids.data()));
+}
+
+/// The same for 32-bit ids in rows without masked samples: a cell that is not active has no
+/// crossings there, so that ids advance from active cell to active cell.
+template <bool Zeros>
+SHAPE3D_ZMC_TARGET_AVX2 void generate_steps_avx2(const RowJob<std::int32_t>& job,
+                                                 const CellRow& row) {
+  const SignLattice& lattice = job.cells.lattice();
+  const PlainCell* cells = job.tables.cells.data();
+  std::int32_t* out = job.out;
+  // Two whole vectors are written as long as what they overrun is still to be written.
+  constexpr std::ptrdiff_t kWhole = 16;
+  RunningIds<std::int32_t> next(lattice, job.plan, row);
+  __m256i low = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(next.crossing.data()));
+  alignas(64) std::array<std::uint8_t, 64> negative, zero;
+  ActiveCells<Zeros> cells_at(row);
+  CellWords c;
+  for (std::int64_t w = 0; w < lattice.words; ++w) {
+    cells_at.next(w, below_mask(lattice.nx - 1, w));
+    const Word with_zero = Zeros ? cells_at.with_zero : 0;
+    if (with_zero != 0) {
+      load_corners<Zeros>(row, w, c);
+      put_corner_bytes_avx2(c.z, zero.data());
+    } else if (cells_at.active != 0) {
+      load_corners<false>(row, w, c);
+    }
+    if (cells_at.active != 0) put_corner_bytes_avx2(c.n, negative.data());
+    for (Word left = cells_at.active; left != 0; left &= left - 1) {
+      const int b = __builtin_ctzll(left);
+      const PlainCell& cell = cells[negative[b]];
+      const bool any = ((with_zero >> b) & 1u) != 0;
+      if (!any && cell.special == 0 && job.end - out >= kWhole) {
+        const __m256i high = _mm256_add_epi32(low, load_bytes(cell.steps.data()));
+        put_ids(cell.lanes.data(), low, high, out);
+        if (cell.triangles > 2) put_ids(cell.lanes.data() + 8, low, high, out + 8);
+        out += 3 * cell.triangles;
+        low = high;
+        continue;
+      }
+      if (Zeros && with_zero == 0) zero[b] = 0;
+      const unsigned crossing = crossing_lanes(negative[b], Zeros ? zero[b] : 0);
+      const __m256i bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+      const __m256i here = _mm256_cmpeq_epi32(
+          _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(crossing)), bits), bits);
+      const __m256i high = _mm256_sub_epi32(low, here);
+      if (Zeros && any && job.end - out >= kWhole) {
+        const PatternTriangles& pattern =
+            job.tables.by_case[job.cells.table().case_of_mask[negative[b] | zero[b] << 8]];
+        if ((pattern.ambiguous | pattern.centroids) == 0 && pattern.triangles <= 5) {
+          const std::uint8_t* lanes = job.tables.lanes.data() + pattern.first;
+          const __m256i zeros = zero_ids(next.zero, c.used, b);
+          put_ids(lanes, low, high, zeros, out);
+          if (pattern.triangles > 2) put_ids(lanes + 8, low, high, zeros, out + 8);
+          out += 3 * pattern.triangles;
+          low = high;
+          continue;
+        }
+      }
+      alignas(32) std::array<std::int32_t, 8> beyond;
+      _mm256_storeu_si256(reinterpret_cast<__m256i*>(next.crossing.data()), low);
+      _mm256_store_si256(reinterpret_cast<__m256i*>(beyond.data()), high);
+      out = put_any_cell<Zeros>(job, {w, &c.used, negative.data(), zero.data()}, b, beyond.data(),
+                                next, out);
+      low = high;
+    }
+    if (Zeros && cells_at.zeros != 0) {
+      for (int r = 0; r < 4; ++r) next.zero[r] += popcount(load(row.n[r] + w) & row.z[r][w]);
+    }
+  }
+}
+
 /// The same for 32-bit ids: the ids round a cell are one vector of ranks, and its triangles one
 /// permutation of them.
 template <bool Zeros>
@@ -243,6 +390,7 @@ void dispatch(Isa isa, const RowJob<Index>& job, const CellRow& row) {
 #if SHAPE3D_ZMC_X86
   if constexpr (sizeof(Index) == 4) {
     if (isa == Isa::avx512) return generate_avx512<Zeros>(job, row);
+    if (isa == Isa::avx2 && row.valid == nullptr) return generate_steps_avx2<Zeros>(job, row);
   }
   if (isa != Isa::portable) return generate_avx2<Zeros>(job, row);
 #endif
@@ -255,7 +403,7 @@ void dispatch(Isa isa, const RowJob<Index>& job, const CellRow& row) {
 template <class Index>
 void generate_cell_row(const LatticeCells& cells, const Plan& plan, const TriangleTables& tables,
                        const CentroidSink& centroids, std::int64_t j, std::int64_t k,
-                       Index* triangles) {
+                       Index* triangles, const Index* end) {
   constexpr unsigned kBoth = kRowNegative | kRowPositive;
   const CellRow row = cell_row(cells.lattice(), j, k);
   if ((row.any_flags & kBoth) != kBoth) return;
@@ -267,6 +415,7 @@ void generate_cell_row(const LatticeCells& cells, const Plan& plan, const Triang
                           j,
                           k,
                           triangles + 3 * (plan.first_triangle(row.row[0]) - plan.part_triangle),
+                          end,
                           corner_bytes(isa)};
   if ((row.any_flags & kRowZero) != 0) {
     dispatch<true>(isa, job, row);
@@ -276,8 +425,10 @@ void generate_cell_row(const LatticeCells& cells, const Plan& plan, const Triang
 }
 
 template void generate_cell_row(const LatticeCells&, const Plan&, const TriangleTables&,
-                                const CentroidSink&, std::int64_t, std::int64_t, std::int32_t*);
+                                const CentroidSink&, std::int64_t, std::int64_t, std::int32_t*,
+                                const std::int32_t*);
 template void generate_cell_row(const LatticeCells&, const Plan&, const TriangleTables&,
-                                const CentroidSink&, std::int64_t, std::int64_t, std::int64_t*);
+                                const CentroidSink&, std::int64_t, std::int64_t, std::int64_t*,
+                                const std::int64_t*);
 
 }  // namespace shape3d::zmc::detail

@@ -2,17 +2,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <limits>
 #include <type_traits>
 
+#include "attributes.hpp"
 #include "cell_words.hpp"
 #include "crossings.hpp"
 #include "isa.hpp"
 #include "samples.hpp"
+#include "vector_blocks.hpp"
 
 namespace shape3d::zmc::detail {
 namespace {
 
-/// Indices of the vertices of one kind in a row.
+/// Indices of the vertices of one kind in a row, the last repeated as padding.
 template <class Words>
 SHAPE3D_ZMC_INLINE std::size_t collect(std::int64_t words, const Words& word_at,
                                        std::uint32_t* index) {
@@ -23,6 +27,7 @@ SHAPE3D_ZMC_INLINE std::size_t collect(std::int64_t words, const Words& word_at,
       index[n++] = base + static_cast<std::uint32_t>(__builtin_ctzll(left));
     }
   }
+  if (n > 0) std::fill_n(index + n, kBlock - 1, index[n - 1]);
   return n;
 }
 
@@ -36,25 +41,81 @@ struct EdgeSamples {
   double isovalue;
 };
 
-/// Crossing parameters of n edges. Samples are fetched first, so that the divisions can be done
-/// side by side.
+/// Crossing parameters of n edges, as crossing_parameter() gives them.
 template <class T>
 SHAPE3D_ZMC_INLINE void interpolate_body(const EdgeSamples<T>& edges, const std::uint32_t* index,
                                          std::size_t count, double* parameter) {
   using Wide = std::conditional_t<std::is_floating_point_v<T>, T, std::int32_t>;
-  constexpr std::size_t kBlock = 64;
-  std::array<Wide, kBlock> lower, upper;
+  const Doubles isovalue = Doubles{} + edges.isovalue, zero{};
   for (std::size_t first = 0; first < count; first += kBlock) {
-    const std::size_t n = std::min(kBlock, count - first);
-    for (std::size_t m = 0; m < n; ++m) {
+    std::array<Wide, kBlock> at_lower, at_upper;
+    for (std::size_t m = 0; m < kBlock; ++m) {
       const std::int64_t at = static_cast<std::int64_t>(index[first + m]) * edges.stride;
-      lower[m] = edges.lower[at];
-      upper[m] = edges.upper[at];
+      at_lower[m] = edges.lower[at];
+      at_upper[m] = edges.upper[at];
     }
-    for (std::size_t m = 0; m < n; ++m) {
-      parameter[first + m] = crossing_parameter<T>(lower[m], upper[m], edges.isovalue);
+    Doubles lower, upper;
+    load_block(at_lower.data(), lower);
+    load_block(at_upper.data(), upper);
+    Doubles a = lower - isovalue, b = upper - isovalue;
+    a = a < zero ? -a : a;
+    b = b < zero ? -b : b;
+    if constexpr (std::is_same_v<T, double>) {
+      const auto finite = a + b <= zero + std::numeric_limits<double>::max();
+      Doubles quarter_a = 0.25 * lower - 0.25 * isovalue,
+              quarter_b = 0.25 * upper - 0.25 * isovalue;
+      quarter_a = quarter_a < zero ? -quarter_a : quarter_a;
+      quarter_b = quarter_b < zero ? -quarter_b : quarter_b;
+      a = finite ? a : quarter_a;
+      b = finite ? b : quarter_b;
     }
+    const Doubles least = zero + kCrossingMargin, most = zero + (1.0 - kCrossingMargin);
+    Doubles t = a / (a + b);
+    t = t < least ? least : t;
+    t = t > most ? most : t;
+    std::memcpy(parameter + first, &t, sizeof t);
   }
+}
+
+/// Where the points of a row lie: the terms of Geometry::world(). Along `axis` they are moved by
+/// their parameters.
+struct RowPlace {
+  int axis;
+  std::array<double, 3> origin;
+  std::array<std::array<double, 3>, 3> axes;  ///< Steps along x, y, z.
+  double x_shift, y, z;                       ///< Lattice coordinates less the shifts.
+};
+
+/// Places of n vertices with indices and parameters. Sums are in the order of Geometry::world().
+template <int Axis, class Real>
+SHAPE3D_ZMC_INLINE void place_body(const RowPlace& row, const std::uint32_t* index,
+                                   const double* parameter, std::size_t count, Real* out) {
+  for (std::size_t first = 0; first < count; first += kBlock) {
+    Doubles x, t;
+    load_block(reinterpret_cast<const std::int32_t*>(index + first), x);
+    x -= row.x_shift;
+    load_block(parameter + first, t);
+    Doubles place[3];
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double x_axis = row.axes[0][d], y_axis = row.axes[1][d], z_axis = row.axes[2][d],
+                   origin = row.origin[d], plane = origin + z_axis * row.z, y_term = y_axis * row.y,
+                   line = plane + y_term;
+      Doubles value;
+      if constexpr (Axis == 0) value = line + x_axis * (x + t);
+      if constexpr (Axis == 1) value = (plane + y_axis * (row.y + t)) + x_axis * x;
+      if constexpr (Axis == 2) value = ((origin + z_axis * (row.z + t)) + y_term) + x_axis * x;
+      place[d] = value;
+    }
+    store_points(place, std::min(kBlock, count - first), out + 3 * first);
+  }
+}
+
+template <class Real>
+SHAPE3D_ZMC_INLINE void place_along(const RowPlace& row, const std::uint32_t* index,
+                                    const double* parameter, std::size_t n, Real* out) {
+  if (row.axis == 0) return place_body<0>(row, index, parameter, n, out);
+  if (row.axis == 1) return place_body<1>(row, index, parameter, n, out);
+  place_body<2>(row, index, parameter, n, out);
 }
 
 template <class T>
@@ -62,12 +123,22 @@ void interpolate_portable(const EdgeSamples<T>& edges, const std::uint32_t* inde
                           double* t) {
   interpolate_body(edges, index, n, t);
 }
+template <class Real>
+void place_portable(const RowPlace& row, const std::uint32_t* index, const double* parameter,
+                    std::size_t n, Real* out) {
+  place_along(row, index, parameter, n, out);
+}
 #if SHAPE3D_ZMC_X86
 template <class T>
 SHAPE3D_ZMC_TARGET_AVX2 void interpolate_avx2(const EdgeSamples<T>& edges,
                                               const std::uint32_t* index, std::size_t n,
                                               double* t) {
   interpolate_body(edges, index, n, t);
+}
+template <class Real>
+SHAPE3D_ZMC_TARGET_AVX2 void place_avx2(const RowPlace& row, const std::uint32_t* index,
+                                        const double* parameter, std::size_t n, Real* out) {
+  place_along(row, index, parameter, n, out);
 }
 #endif
 
@@ -78,6 +149,14 @@ void interpolate(const EdgeSamples<T>& edges, const std::uint32_t* index, std::s
   if (active_isa() != Isa::portable) return interpolate_avx2(edges, index, n, t);
 #endif
   interpolate_portable(edges, index, n, t);
+}
+template <class Real>
+void place(const RowPlace& row, const std::uint32_t* index, const double* parameter, std::size_t n,
+           Real* out) {
+#if SHAPE3D_ZMC_X86
+  if (active_isa() != Isa::portable) return place_avx2(row, index, parameter, n, out);
+#endif
+  place_portable(row, index, parameter, n, out);
 }
 
 /// Two rows whose samples with one index are the ends of an edge; for edges along x the row and
@@ -144,6 +223,22 @@ std::size_t collect_crossings(const SignLattice& lattice, std::int64_t j, std::i
   return zeros ? collect_rows<false, true>(rows, index) : collect_rows<false, false>(rows, index);
 }
 
+RowPlace row_place(const Geometry& geometry, int axis, std::int64_t j, std::int64_t k) {
+  RowPlace row{};
+  row.axis = axis;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto component = static_cast<Eigen::Index>(d);
+    row.origin[d] = geometry.origin()[component];
+    for (std::size_t a = 0; a < 3; ++a) {
+      row.axes[a][d] = geometry.axes()(component, static_cast<Eigen::Index>(a));
+    }
+  }
+  row.x_shift = geometry.shift(0);
+  row.y = static_cast<double>(j) - geometry.shift(1);
+  row.z = static_cast<double>(k) - geometry.shift(2);
+  return row;
+}
+
 }  // namespace
 
 template <class Real>
@@ -159,8 +254,8 @@ VertexWriter<Real>::VertexWriter(const VolumeView& view, double isovalue, const 
       arrays_(arrays),
       geometry_(geometry),
       attributes_(view, options),
-      index_(static_cast<std::size_t>(lattice.nx)),
-      parameter_(static_cast<std::size_t>(lattice.nx)) {}
+      index_(static_cast<std::size_t>(lattice.nx) + kBlock),
+      parameter_(static_cast<std::size_t>(lattice.nx) + kBlock) {}
 
 template <class Real>
 void VertexWriter<Real>::write_row(std::int64_t j, std::int64_t k) {
@@ -179,7 +274,6 @@ void VertexWriter<Real>::write_row(std::int64_t j, std::int64_t k) {
 template <class Real>
 void VertexWriter<Real>::write_crossings(std::int64_t j, std::int64_t k, int axis,
                                          std::int64_t first) {
-  Real* out = arrays_.positions + 3 * first;
   const std::size_t n = collect_crossings(lattice_, j, k, axis, index_.data());
   if (capped_) {
     const AnyMagnitudeReader magnitude(view_, isovalue_, true);
@@ -196,48 +290,22 @@ void VertexWriter<Real>::write_crossings(std::int64_t j, std::int64_t k, int axi
     });
   }
 
-  const Eigen::Vector3d plane = geometry_.plane(k), y_term = geometry_.y_term(j);
-  const auto put = [&](std::size_t m, const Eigen::Vector3d& p) {
-    for (int d = 0; d < 3; ++d) out[3 * m + static_cast<std::size_t>(d)] = static_cast<Real>(p[d]);
-  };
-  switch (axis) {
-    case 0: {
-      const Eigen::Vector3d line = plane + y_term;
-      for (std::size_t m = 0; m < n; ++m) {
-        put(m, line + geometry_.x_term(index_[m], parameter_[m]));
-      }
-      break;
-    }
-    case 1:
-      for (std::size_t m = 0; m < n; ++m) {
-        put(m, plane + geometry_.y_term(j, parameter_[m]) + geometry_.x_term(index_[m]));
-      }
-      break;
-    default:
-      for (std::size_t m = 0; m < n; ++m) {
-        put(m, geometry_.plane(k, parameter_[m]) + y_term + geometry_.x_term(index_[m]));
-      }
-  }
+  place<Real>(row_place(geometry_, axis, j, k), index_.data(), parameter_.data(), n,
+              arrays_.positions + 3 * first);
   if (arrays_.edges != nullptr) write_edges(j, k, axis, n, first);
   if (arrays_.with_attributes()) write_attributes(j, k, axis, n, first);
 }
 
 template <class Real>
 void VertexWriter<Real>::write_zeros(std::int64_t j, std::int64_t k, std::int64_t first) {
-  Real* out = arrays_.positions + 3 * first;
   const Crossings crossings(lattice_);
   const std::size_t n = collect(
       lattice_.words, [&](std::int64_t w) { return crossings.used_zeros(j, k, w); }, index_.data());
-  const Eigen::Vector3d line = geometry_.plane(k) + geometry_.y_term(j);
-  for (std::size_t m = 0; m < n; ++m) {
-    const Eigen::Vector3d p = line + geometry_.x_term(index_[m]);
-    for (int d = 0; d < 3; ++d) out[3 * m + static_cast<std::size_t>(d)] = static_cast<Real>(p[d]);
-  }
-  if (arrays_.with_attributes() || arrays_.edges != nullptr) {
-    std::fill_n(parameter_.begin(), n, 0.0);
-    if (arrays_.edges != nullptr) write_edges(j, k, 0, n, first);
-    if (arrays_.with_attributes()) write_attributes(j, k, 0, n, first);
-  }
+  std::fill_n(parameter_.begin(), n, 0.0);
+  place<Real>(row_place(geometry_, 0, j, k), index_.data(), parameter_.data(), n,
+              arrays_.positions + 3 * first);
+  if (arrays_.edges != nullptr) write_edges(j, k, 0, n, first);
+  if (arrays_.with_attributes()) write_attributes(j, k, 0, n, first);
 }
 
 template <class Real>
@@ -260,6 +328,13 @@ void VertexWriter<Real>::write_edges(std::int64_t j, std::int64_t k, int axis, s
 template <class Real>
 void VertexWriter<Real>::write_attributes(std::int64_t j, std::int64_t k, int axis,
                                           std::size_t count, std::int64_t first) {
+  if (!capped_ && !lattice_.masked && count > 0 && parameter_[0] > 0.0) {
+    const auto at = [first](Real* array) { return array == nullptr ? nullptr : array + 3 * first; };
+    detail::write_attributes(view_, attributes_,
+                             {j, k, axis, index_.data(), parameter_.data(), count},
+                             at(arrays_.gradients), at(arrays_.normals));
+    return;
+  }
   visit_sample_type(view_.type, [&](auto sample) {
     const LatticeGradient<decltype(sample)> gradient(view_);
     for (std::size_t m = 0; m < count; ++m) {

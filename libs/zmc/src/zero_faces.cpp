@@ -75,6 +75,11 @@ void find_inserted_faces(const LatticeCells& cells, const ZeroRegions& regions, 
     for (const std::int64_t row : r) zeros |= lattice.flags[static_cast<std::size_t>(row)];
     if ((zeros & kRowZero) == 0) continue;
     for (std::int64_t w = 0; w < lattice.words; ++w) {
+      const Word any = load(lattice.z_row(r[0]) + w) | load(lattice.z_row(r[1]) + w) |
+                       load(lattice.z_row(r[2]) + w) | load(lattice.z_row(r[3]) + w);
+      const Word after = load(lattice.z_row(r[0]) + w + 1) | load(lattice.z_row(r[1]) + w + 1) |
+                         load(lattice.z_row(r[2]) + w + 1) | load(lattice.z_row(r[3]) + w + 1);
+      if ((any | (after & 1u)) == 0) continue;
       // Both kinds of face have a zero edge; most words with zeros have none.
       std::array<Word, 4> z{}, z_next{};
       for (int n = 0; n < 4; ++n) {

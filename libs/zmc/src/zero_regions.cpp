@@ -21,10 +21,13 @@ CellPlace neighbour(const CellPlace& p, const NeighbourStep& s) {
   return {p.i + s.di, p.j + s.dj, p.k + s.dk};
 }
 
-/// Of a cell that is not all zero.
-int solved_face_sign(const LatticeCells& cells, const CellPlace& p, int face) {
-  const CellConfig& config =
-      cells.config_of_mask(cells.lattice().cell_mask(p.i, p.j, p.k), p.i, p.j, p.k);
+/// Of a cell that is not all zero, by its mask.
+int solved_face_sign(const LatticeCells& cells, unsigned mask, const CellPlace& p, int face) {
+  const unsigned signs = cells.table().face_signs[cells.table().case_of_mask[mask]];
+  if (signs != CellTable::kAmbiguousFaces) {
+    return static_cast<int>((signs >> face) & 1u) - static_cast<int>((signs >> (face + 6)) & 1u);
+  }
+  const CellConfig& config = cells.config_of_mask(mask, p.i, p.j, p.k);
   return ((config.face_positive >> face) & 1) - ((config.face_negative >> face) & 1);
 }
 
@@ -57,8 +60,10 @@ int sign_of_solved_neighbour(const LatticeCells& cells, const CellPlace& cell, S
   int sign = 0;
   for (const NeighbourStep& step : kNeighbourSteps) {
     const CellPlace q = neighbour(cell, step);
-    if (!is_cell(cells.lattice(), q) || is_all_zero(cells.lattice(), q)) continue;
-    const int sees = solved_face_sign(cells, q, step.face_of_neighbour);
+    if (!is_cell(cells.lattice(), q)) continue;
+    const unsigned mask = cells.lattice().cell_mask(q.i, q.j, q.k);
+    if ((mask & kAllZero) == kAllZero) continue;
+    const int sees = solved_face_sign(cells, mask, q, step.face_of_neighbour);
     (sees > 0 ? seen.positive : seen.negative) = true;
     if (sign == 0) sign = sees;
   }
@@ -67,8 +72,9 @@ int sign_of_solved_neighbour(const LatticeCells& cells, const CellPlace& cell, S
 
 int face_sign(const LatticeCells& cells, const ZeroRegions& regions, std::int64_t i, std::int64_t j,
               std::int64_t k, int face) {
-  if (is_all_zero(cells.lattice(), {i, j, k})) return regions.sign(i, cells.lattice().row(j, k));
-  return solved_face_sign(cells, {i, j, k}, face);
+  const unsigned mask = cells.lattice().cell_mask(i, j, k);
+  if ((mask & kAllZero) == kAllZero) return regions.sign(i, cells.lattice().row(j, k));
+  return solved_face_sign(cells, mask, {i, j, k}, face);
 }
 
 void ZeroRegions::set_uniform(int sign, std::int64_t count) {

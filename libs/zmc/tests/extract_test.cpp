@@ -296,6 +296,22 @@ TEST_CASE("float positions and 64-bit ids describe the same surface", "[zmc][ext
   CHECK((narrow.V().cast<double>() - expected.V()).cwiseAbs().maxCoeff() < 2e-6);
 }
 
+TEST_CASE("non-manifold edges are counted on request only", "[zmc][extract]") {
+  // Two negative quadrants and two positive ones along a line of zeros, which has four sheets.
+  constexpr std::int64_t kSide = 5;
+  std::vector<std::int16_t> samples;
+  for (int k = 0; k < kSide; ++k) {
+    for (int j = -2; j <= 2; ++j) {
+      for (int i = -2; i <= 2; ++i) samples.push_back(static_cast<std::int16_t>(i * j));
+    }
+  }
+  const VolumeView view = make_view(samples.data(), {kSide, kSide, kSide});
+  Options options;
+  CHECK(extract(view, 0.0, options).counts.nonmanifold_edges == -1);
+  options.count_nonmanifold = true;
+  CHECK(extract(view, 0.0, options).counts.nonmanifold_edges == kSide - 1);
+}
+
 TEST_CASE("a surface that is filled again equals a new one", "[zmc][extract]") {
   const Dims dims{20, 20, 20};
   Mesh reused;

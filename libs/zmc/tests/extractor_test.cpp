@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -39,6 +41,7 @@ TEST_CASE("an extractor used again gives what a new one gives", "[zmc][extractor
       const VolumeView view = make_view(samples.data(), dims);
       Options options;
       options.border = density == 30 ? Border::capped : Border::open;
+      options.count_nonmanifold = density == 90;
       const Status status = extractor.extract(view, 0.0, options, reused);
       Surface<double, std::int32_t> fresh;
       CHECK(extract(view, 0.0, options, fresh) == status);
@@ -86,6 +89,8 @@ void check_instruction_sets(const Dims& dims, int density, std::uint64_t seed) {
       Options options;
       options.inside = inside;
       options.threads = 1;
+      options.triangulation = isovalue < zero ? Triangulation::centroid : Triangulation::compact;
+      options.normals = options.gradients = true;
       Surface<float, std::int32_t> expected;
       use_instruction_set(InstructionSet::portable);
       extract(make_view(samples.data(), dims), isovalue, options, expected);
@@ -173,6 +178,58 @@ TEST_CASE("gradients of a quadratic are exact at lattice points and linear betwe
     const Surface<double> bare = extract(ball.view, 0.0, options);
     CHECK(bare.N().rows() == 0);
     CHECK(bare.G().rows() == 0);
+  }
+}
+
+TEST_CASE("attributes beside masked samples are those of the volume without", "[zmc][gradient]") {
+  // A volume with a masked sample is worked on vertex by vertex, one without in blocks.
+  const Dims dims{21, 9, 8};
+  const std::vector<int> random = random_samples(dims, 40, 10, 5);
+  std::vector<float> samples(random.begin(), random.end());
+  VolumeView view = make_view(samples.data(), dims, {0.7, 1.1, 2.3}, {-3.0, 5.0, 0.1});
+  view.direction << 0.0, 0.6, 0.8, 1.0, 0.0, 0.0, 0.0, 0.8, -0.6;
+  Options options;
+  options.normals = options.gradients = options.edges = true;
+  options.non_finite = NonFinite::mask;
+  Surface<float, std::int32_t> whole, masked;
+  REQUIRE(extract(view, 0.0, options, whole) == Status::ok);
+  samples[0] = std::numeric_limits<float>::quiet_NaN();
+  REQUIRE(extract(view, 0.0, options, masked) == Status::ok);
+  REQUIRE(masked.counts.masked_cells == 1);
+
+  std::map<std::pair<std::int64_t, float>, std::size_t> places;  // on the lattice
+  for (std::size_t v = 0; v < whole.edges.size(); ++v) {
+    if (whole.edges[v] >= 0) places[{whole.edges[v], whole.edge_parameters[v]}] = v;
+  }
+  std::size_t compared = 0;
+  for (std::size_t v = 0; v < masked.edges.size(); ++v) {
+    const std::int64_t i = masked.edges[v] / 3 % dims[0], row = masked.edges[v] / 3 / dims[0];
+    // Not one whose differences reach the masked sample.
+    if (masked.edges[v] < 0 || (i < 3 && row % dims[1] < 3 && row / dims[1] < 3)) continue;
+    const auto found = places.find({masked.edges[v], masked.edge_parameters[v]});
+    REQUIRE(found != places.end());
+    for (std::size_t d = 0; d < 3; ++d) {
+      REQUIRE(masked.gradients[3 * v + d] == whole.gradients[3 * found->second + d]);
+      REQUIRE(masked.normals[3 * v + d] == whole.normals[3 * found->second + d]);
+    }
+    ++compared;
+  }
+  CHECK(compared > 1500);
+}
+
+TEST_CASE("lengths of gradients that overflow or vanish when squared", "[zmc][gradient]") {
+  // A plane x = 1.5 between samples whose difference is far from 1, in both directions.
+  for (const double scale : {1e-200, 1e-160, 1.0, 1e160, 1e200}) {
+    std::vector<double> samples;
+    for (int n = 0; n < 4 * 9 * 9; ++n) samples.push_back(scale * (n % 4 - 1.5));
+    Options options;
+    options.normals = true;
+    Surface<double, std::int32_t> surface;
+    REQUIRE(extract(make_view(samples.data(), {4, 9, 9}), 0.0, options, surface) == Status::ok);
+    INFO("scale " << scale);
+    REQUIRE(surface.N().rows() == 81);
+    CHECK((surface.N().col(0).array() == 1.0).all());
+    CHECK((surface.N().rightCols<2>().array() == 0.0).all());
   }
 }
 

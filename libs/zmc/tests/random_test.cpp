@@ -110,6 +110,7 @@ void check_counts(const Counts& counts, const Expected& expected, const Conversi
 
 /// Everything that section 3.b of the library's contract promises of one volume.
 void check_volume(const reference::Volume& volume, Options options) {
+  options.count_nonmanifold = true;
   INFO(text(options, volume.dims));
   Mesh surface;
   const Status status = extract(view_of(volume), 0.0, options, surface);

@@ -106,6 +106,7 @@ TEST_CASE("Fig. 1.2: two V shapes touch along a line of zero edges", "[zmc][topo
   Options options;
   options.triangulation = triangulation;
   options.ties = ties;
+  options.count_nonmanifold = true;
   const Mesh mesh = extract(volume.view(), 0.0, options);
   CHECK(mesh.counts.patches == 4 * 3);  // A diagonal quad in each cell.
   CHECK(mesh.counts.zero_vertices == 5 * 4);
@@ -210,7 +211,9 @@ TEST_CASE("Fig. 2.13(a): sphere and square, four parts round their intersection"
           "[zmc][topology]") {
   const Sampled volume({17, 17, 17}, {-8, -8, -8}, 1.0,
                        [](double x, double y, double z) { return sphere_field(x, y, z) * z; });
-  const Mesh mesh = extract(volume.view(), 0.0);
+  Options options;
+  options.count_nonmanifold = true;
+  const Mesh mesh = extract(volume.view(), 0.0, options);
   const MeshProperties properties = properties_of(mesh, volume.border());
   CHECK(properties.is_clean());
   CHECK(properties.is_closed());

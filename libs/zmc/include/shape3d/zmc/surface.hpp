@@ -79,7 +79,9 @@ struct Counts {
   std::int64_t all_zero_cells = 0;     ///< Cells of eight zero samples.
   std::int64_t masked_cells = 0;       ///< Cells skipped for a non-finite sample.
   std::int64_t centroids = 0;          ///< Vertices that are centroids of polygons.
-  std::int64_t nonmanifold_edges = 0;  ///< Edges of more than two triangles (all are zero edges).
+  /// With Options::count_nonmanifold: edges of more than two triangles (all are zero edges);
+  /// otherwise −1.
+  std::int64_t nonmanifold_edges = -1;
 };
 
 /// Wall-clock seconds by stage.
