@@ -151,9 +151,11 @@ def part_stability():
 
 REAL = [
     ("chest CT, lungs", "cip_ct-64_64x64x79", "cip_wholeLung-64_64x64x79_mask",
-     ["--inside", "dark", "--classes", "2", "--roi", "2,63,7,54,5,78"]),
+     ["--inside", "dark", "--classes", "2", "--roi", "2,63,7,54,5,78", "--seed-point", "15,30,40",
+      "--keep-connected"]),
     ("head MR, lateral ventricles", "itksnap_MRIcrop_78x110x64", "itksnap_MRIcrop_78x110x64_labels",
-     ["--inside", "dark", "--truth-label", "1"]),
+     ["--inside", "0", "--classes", "5", "--roi", "3,71,3,105,28,61", "--seed-point", "38,64,30",
+      "--keep-connected", "--truth-label", "1"]),
     ("sarcoma CT", "sts_STS_041_CT_153x163x53", "sts_STS_041_CT_153x163x53_GTV", []),
     ("sarcoma MR 002", "sts_STS_002_MR_115x90x35", "sts_STS_002_MR_115x90x35_GTV", []),
     ("sarcoma MR 003", "sts_STS_003_MR_121x138x47", "sts_STS_003_MR_121x138x47_GTV", []),

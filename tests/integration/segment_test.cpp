@@ -71,7 +71,8 @@ TEST_CASE("segment: a ball, its labels, surface, distance function and report", 
   INFO(run.out << run.err);
   REQUIRE(run.status == 0);
   CHECK(run.err.empty());
-  CHECK_THAT(run.out, Contains("Dice") && Contains("calibrated level") && Contains("converged"));
+  CHECK_THAT(run.out, Contains("Dice") && Contains("calibrated level") &&
+                          Contains("the front came to rest"));
   const nlohmann::json r = read_json(folder / "r.json");
   const double ball = 4.0 / 3 * kPi * 729;
   CHECK(r["status"] == "converged");
@@ -147,10 +148,11 @@ TEST_CASE("segment: the component at the seed, and a start from a sphere", "[seg
     const double d = std::min(std::hypot(i - 11.5, y, z) - 6, std::hypot(i - 35.5, y, z) - 8);
     return static_cast<float>(100 * std::clamp(0.5 - d, 0.0, 1.0) + (i + j + k) % 3);
   });
-  const std::vector<std::string> base{"segment",   "two.mhd", "-o",     "l.nii.gz",
-                                      "--classes", "2",       "--json", "r.json"};
+  const std::vector<std::string> base{"segment", "two.mhd", "-o", "l.nii.gz", "--json", "r.json"};
   const auto report = [&](std::vector<std::string> more) {
     more.insert(more.begin(), base.begin(), base.end());
+    if (std::find(more.begin(), more.end(), "--classes") == more.end())
+      more.insert(more.end(), {"--classes", "2"});
     const Run run = run_in(folder, more);
     INFO(run.err);
     REQUIRE(run.status == 0);
@@ -169,12 +171,16 @@ TEST_CASE("segment: the component at the seed, and a start from a sphere", "[seg
   CHECK(volume(report({"--seed-point", "35,11,12", "--keep-connected"})) ==
         Approx(large).epsilon(0.05));
   // A sphere inside one ball grows to that ball alone, and only to it.
-  const nlohmann::json sphere =
-      report({"--seed-point", "35.5,11.5,11.5", "--radius", "3", "--method", "intensity"});
+  const nlohmann::json sphere = report({"--seed-point", "35.5,11.5,11.5", "--radius", "3"});
   CHECK(volume(sphere) == Approx(large).epsilon(0.05));
-  const nlohmann::json dark = report({"--inside", "dark"});
+  // The dark round the balls: a front that grows closes round them. One that starts as the box has
+  // the balls inside and nothing to pass through to reach them.
+  const nlohmann::json dark =
+      report({"--inside", "dark", "--seed-point", "2,2,2", "--radius", "2"});
   CHECK(volume(dark) == Approx(48 * 24 * 24 - small - large).epsilon(0.02));
-  CHECK(volume(report({"--inside", "0"})) == volume(dark));
+  CHECK(volume(report({"--inside", "0", "--seed-point", "2,2,2", "--radius", "2"})) ==
+        volume(dark));
+  CHECK(report({"--inside", "dark"})["status"] == "front_filled");
   const nlohmann::json automatic = report({"--classes", "auto", "--estimator", "em"});
   CHECK(automatic["model"]["bic_by_classes"].size() >= 2);
 }
@@ -202,7 +208,7 @@ TEST_CASE("segment: a nodule without its vessel, with its pictures", "[segment]"
   INFO(run.err);
   REQUIRE(run.status == 0);
   const nlohmann::json r = read_json(folder / "r.json");
-  CHECK(with_vessel < 0.9);
+  CHECK(with_vessel < 0.92);
   CHECK(r["agreement"]["dice"].get<double>() > 0.95);
   CHECK(r["nodule"]["inscribed_radius"].get<double>() == Approx(7).margin(1));
   CHECK(check_mesh(view_of(read_mesh((folder / "m.stl").string()).mesh)).components == 1);

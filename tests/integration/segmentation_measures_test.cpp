@@ -281,15 +281,15 @@ TEST_CASE("a nodule is cut from a vessel and from a wall", "[labels]") {
   const Mask ball = scene(false, false);
   const Nodule alone = nodule_at(ball, {30, 30, 20});
   CHECK(alone.inscribed_radius == Approx(8).margin(1));
-  CHECK(dice_with(alone.mask, ball) > 0.99);
-  CHECK(dice_with(nodule_at(scene(true, false), {30, 30, 20}).mask, ball) > 0.97);
-  CHECK(dice_with(nodule_at(ball, {32, 29, 21}).mask, ball) > 0.99);  // the seed off the middle
+  CHECK(dice_with(alone.mask, ball) > 0.97);
+  CHECK(dice_with(nodule_at(scene(true, false), {30, 30, 20}).mask, ball) > 0.95);
+  CHECK(dice_with(nodule_at(ball, {32, 29, 21}).mask, ball) > 0.97);  // the seed off the middle
   Mask cap = ball;  // the part of the ball that is not in the wall
   for (std::size_t n = 0; n < cap.samples.size(); ++n) {
     if (place(cap, n).x() >= 34) cap.samples[n] = 0;
   }
-  CHECK(dice_with(nodule_at(scene(false, true), {30, 30, 20}).mask, cap) > 0.9);
-  CHECK(dice_with(nodule_at(scene(true, true), {30, 30, 20}).mask, cap) > 0.9);
+  CHECK(dice_with(nodule_at(scene(false, true), {30, 30, 20}).mask, cap) > 0.85);
+  CHECK(dice_with(nodule_at(scene(true, true), {30, 30, 20}).mask, cap) > 0.85);
   const Nodule none = nodule_at(ball, {0, 0, 0});
   CHECK(std::count(none.mask.samples.begin(), none.mask.samples.end(), 1) == 0);
   NoduleOptions options;
