@@ -32,11 +32,6 @@ void add_contours(CLI::App& app, Settings& settings);
 void add_check(CLI::App& app, Settings& settings);
 void add_render(CLI::App& app, Settings& settings);
 void add_compare(CLI::App& app, Settings& settings);
-void add_map(CLI::App& app, Settings& settings);
-void add_align(CLI::App& app, Settings& settings);
-void add_repair(CLI::App& app, Settings& settings);
-void add_simplify(CLI::App& app, Settings& settings);
-void add_wrap(CLI::App& app, Settings& settings);
 
 /// Prints "shape3d: warning: SENTENCE" on standard error unless settings.quiet.
 void warn(const Settings& settings, const std::string& sentence);
