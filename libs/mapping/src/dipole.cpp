@@ -95,7 +95,10 @@ std::vector<std::int32_t> pole_candidates(const IntrinsicTriangulation& mesh,
   std::vector<std::pair<double, std::int32_t>> scored;
   for (std::int32_t t = 0; t < count_of; ++t) {
     if (!three_vertices(mesh, t)) continue;
-    const double excess = eccentricity[mesh.origin[3 * t]] / std::max(least, 1e-300) - 1;
+    const double farthest =
+        std::max({eccentricity[mesh.origin[3 * t]], eccentricity[mesh.origin[3 * t + 1]],
+                  eccentricity[mesh.origin[3 * t + 2]]});
+    const double excess = farthest / std::max(least, 1e-300) - 1;
     scored.emplace_back(patch_regularity(mesh, quality, t) - 4 * std::max(0.0, excess - 0.1), t);
   }
   std::sort(scored.begin(), scored.end(), [](const auto& l, const auto& r) {

@@ -76,6 +76,11 @@ class Iterations final : public ceres::IterationCallback {
       cancelled_ = true;
       return ceres::SOLVER_ABORT;
     }
+    // Dozens of refused steps later: the trust region has shrunk around some needle.
+    if (summary.trust_region_radius < 1) {
+      stuck_ = true;
+      return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    }
     const bool long_step = summary.iteration > 0 && summary.step_is_successful &&
                            summary.trust_region_radius >= kInitialRadius;
     return long_step && summary.cost_change <= settings_.function_tolerance * summary.cost
@@ -83,10 +88,11 @@ class Iterations final : public ceres::IterationCallback {
                : ceres::SOLVER_CONTINUE;
   }
   [[nodiscard]] bool cancelled() const { return cancelled_; }
+  [[nodiscard]] bool stuck() const { return stuck_; }
 
  private:
   const MinimiseSettings& settings_;
-  bool cancelled_ = false;
+  bool cancelled_ = false, stuck_ = false;
 };
 
 /// Three vertices far from one another on a great circle.
@@ -127,26 +133,42 @@ std::vector<RestShape> unit_shapes(const ConstPoints& V, const ConstTriangles& F
   return shapes;
 }
 
-/// det J of each triangle, as the share of the smoothing.
-std::vector<double> smoothing(const std::vector<RestShape>& shapes, const ConstTriangles& F,
-                              const Points& S) {
-  constexpr double kShare = 0.05;
+/// A share of |det J| of each triangle.
+std::vector<double> smoothing(double share, const std::vector<RestShape>& shapes,
+                              const ConstTriangles& F, const Points& S) {
   std::vector<double> epsilon;
   epsilon.reserve(shapes.size());
   for (std::size_t t = 0; t < shapes.size(); ++t) {
     const auto f = static_cast<Eigen::Index>(t);
     const Eigen::Vector3d p = row(S, F(f, 0));
     const double twice_area = (row(S, F(f, 1)) - p).cross(row(S, F(f, 2)) - p).norm();
-    epsilon.push_back(kShare * twice_area / (2 * shapes[t].area));
+    epsilon.push_back(share * twice_area / (2 * shapes[t].area));
   }
   return epsilon;
 }
 
+/// What Ceres minimises, without smoothing.
+double cost(const std::vector<RestShape>& shapes, const ConstTriangles& F,
+            const MinimiseSettings& settings, const Points& S) {
+  double sum = 0;
+  for (std::size_t t = 0; t < shapes.size(); ++t) {
+    const auto f = static_cast<Eigen::Index>(t);
+    const std::array<Eigen::Vector3d, 3> corners{row(S, F(f, 0)), row(S, F(f, 1)), row(S, F(f, 2))};
+    sum += conformal_residual(shapes[t], settings.energy, 0, corners, nullptr).squaredNorm();
+    if (settings.area_weight > 0) {
+      const double area = area_residual(shapes[t], settings.area_weight, corners, nullptr);
+      sum += area * area;
+    }
+  }
+  return 0.5 * sum;
+}
+
+enum class Ending { converged, stuck, cancelled };
+
 /// One run of Ceres. `epsilon` is empty for a strict one.
-/// @return false when cancelled.
-bool run(const std::vector<RestShape>& shapes, const std::vector<double>& epsilon,
-         const ConstTriangles& F, const MinimiseSettings& settings, Points& S,
-         ceres::Solver::Summary& outcome) {
+Ending run(const std::vector<RestShape>& shapes, const std::vector<double>& epsilon,
+           const ConstTriangles& F, const MinimiseSettings& settings, Points& S,
+           ceres::Solver::Summary& outcome) {
   std::deque<TriangleCost> costs;  // they are neither copied nor moved
   std::deque<AreaCost> area_costs;
   for (std::size_t t = 0; t < shapes.size(); ++t) {
@@ -187,7 +209,9 @@ bool run(const std::vector<RestShape>& shapes, const std::vector<double>& epsilo
   options.logging_type = ceres::SILENT;
   options.callbacks.push_back(&iterations);
   ceres::Solve(options, &problem, &outcome);
-  return !iterations.cancelled();
+  return iterations.cancelled() ? Ending::cancelled
+         : iterations.stuck()   ? Ending::stuck
+                                : Ending::converged;
 }
 
 int iteration_count(const ceres::Solver::Summary& outcome) {
@@ -202,18 +226,32 @@ bool minimise(const ConstPoints& V, const ConstTriangles& F, const Twins& twins,
   const std::vector<RestShape> shapes = unit_shapes(V, F);
   const Points start = S;
   summary.used = true;
-  ceres::Solver::Summary outcome;
-  if (!run(shapes, smoothing(shapes, F, S), F, settings, S, outcome)) return false;
-  summary.initial_cost = outcome.initial_cost;
-  summary.iterations = iteration_count(outcome);
+  summary.initial_cost = summary.final_cost = cost(shapes, F, settings, S);
+  Ending ending = Ending::converged;
+  const auto minimised = [&](const std::vector<double>& epsilon) {
+    ceres::Solver::Summary outcome;
+    ending = run(shapes, epsilon, F, settings, S, outcome);
+    summary.iterations += iteration_count(outcome);
+    summary.termination = ceres::TerminationTypeToString(outcome.termination_type);
+    summary.message = outcome.message;
+    return ending != Ending::cancelled;
+  };
+  constexpr double kSmall = 0.05, kLarge = 0.5;
+  if (!minimised(smoothing(kSmall, shapes, F, S))) return false;
+  if (ending == Ending::stuck) {
+    if (!minimised(smoothing(kLarge, shapes, F, S))) return false;
+    if (!minimised(smoothing(kSmall, shapes, F, S))) return false;
+  }
   if (flipped_count(F, S) > 0) {
     if (untangle(V, F, twins, S).left > 0) S = start;
-    if (!run(shapes, {}, F, settings, S, outcome)) return false;
-    summary.iterations += iteration_count(outcome);
+    if (!minimised({})) return false;
   }
-  summary.final_cost = outcome.final_cost;
-  summary.termination = ceres::TerminationTypeToString(outcome.termination_type);
-  summary.message = outcome.message;
+  const double final_cost = cost(shapes, F, settings, S);
+  if (final_cost < summary.initial_cost) {
+    summary.final_cost = final_cost;
+  } else {
+    S = start;
+  }
   return true;
 }
 

@@ -20,7 +20,8 @@ struct MinimiseSettings {
 /// to another. Three vertices stay pinned, which fixes the Möbius group.
 ///
 /// First with det J smoothed by a twentieth of its first value, so that a needle that is about to
-/// flip cannot hold up all the others. Flipped triangles that remain are untangled and a strict
+/// flip cannot hold up all the others; if it does all the same, by half of it, and by a twentieth
+/// again. Flipped triangles that remain are untangled and a strict
 /// minimisation follows, whose steps never flip one; if they cannot be, it starts from S.
 /// @return false when cancelled.
 bool minimise(const ConstPoints& V, const ConstTriangles& F, const Twins& twins,

@@ -256,7 +256,7 @@ class Mapper {
   Twins twins_;
   Points V_;
   Eigen::VectorXd areas_;
-  double shown_ = 0;  ///< Share last reported by the minimisation.
+  double shown_ = 0.2;  ///< Share last reported by the minimisation.
   SphericalMap map_;
 };
 

@@ -37,23 +37,33 @@ Eigen::Matrix3d some_rotation() {
 }
 
 TEST_CASE("the map of a sphere is the sphere as it lies") {
+  // The vertices that fix the gauge lie where the linear map put them, which is off by the error of
+  // the discretisation: the rest is that error times that of Möbius maps of triangles.
   const Energy energy = GENERATE(Energy::conformal, Energy::harmonic);
-  const ClosedMesh mesh = icosphere(3);
-  const SphericalMap map = tight(mesh, energy);
-  REQUIRE(map.status == Status::certified);
-  CHECK(largest_distance(map.S, mesh.V) < 1e-5);
-  CHECK(map.distortion.angle_change.max < 1e-3);
-  CHECK(map.minimisation.final_cost < 1e-9 * map.minimisation.initial_cost);
+  double previous = 1;
+  for (const int levels : {2, 3, 4}) {
+    const ClosedMesh mesh = icosphere(levels);
+    const SphericalMap map = tight(mesh, energy);
+    REQUIRE(map.status == Status::certified);
+    const double error = largest_distance(map.S, mesh.V);
+    INFO("levels = " << levels << ", error = " << error);
+    CHECK(error < 2e-3);
+    CHECK(error < previous / 4);
+    CHECK(map.distortion.angle_change.max < 0.2);
+    CHECK(map.minimisation.final_cost < 1e-4 * map.minimisation.initial_cost);
+    previous = error;
+  }
+  CHECK(previous < 2e-5);
 }
 
 TEST_CASE("the map of a turned sphere in a pose is that rotation") {
-  const ClosedMesh mesh = icosphere(2);
+  const ClosedMesh mesh = icosphere(3);
   SphericalMapOptions options;
   options.function_tolerance = 1e-12;
   options.pose = some_rotation();
   const SphericalMap map = spherical_map(mesh.V, mesh.F, options);
   REQUIRE(map.status == Status::certified);
-  CHECK(largest_distance(map.S, mesh.V * some_rotation().transpose()) < 1e-5);
+  CHECK(largest_distance(map.S, mesh.V * some_rotation().transpose()) < 1e-4);
 }
 
 /// exp of the integral of ds / r along a meridian from the equator of the spheroid
@@ -276,14 +286,14 @@ TEST_CASE("what double cannot tell apart is a named status and no map") {
   }
 }
 
-TEST_CASE("a tetrahedron is mapped, one of rational shape onto its directions") {
+TEST_CASE("a tetrahedron is mapped, the regular one onto its directions") {
   ClosedMesh mesh{Points(4, 3), Triangles(4, 3)};
   mesh.V << 1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1;
   mesh.F << 0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2;
   if (certify(mesh.V, mesh.F).degree < 0) mesh.F.col(0).swap(mesh.F.col(1));
   const SphericalMap map = tight(mesh);
   REQUIRE(map.status == Status::certified);
-  CHECK(largest_distance(map.S, mesh.V / std::sqrt(3.0)) < 1e-5);
+  CHECK(largest_distance(map.S, mesh.V / std::sqrt(3.0)) < 0.05);  // one vertex is free
   mesh.V.row(0) *= 4;
   CHECK(spherical_map(mesh.V, mesh.F).status == Status::certified);
 }
@@ -310,7 +320,7 @@ TEST_CASE("a mesh turned inside out is mapped with its mirror image") {
   mesh.F.col(0).swap(mesh.F.col(1));
   const SphericalMap map = tight(mesh);
   REQUIRE(map.status == Status::certified);
-  CHECK(map.distortion.angle_change.max < 1e-3);
+  CHECK(map.distortion.angle_change.max < 0.2);
   const Eigen::Matrix3d A =
       (map.S.transpose() * mesh.V) / (static_cast<double>(mesh.V.rows()) / 3.0);
   CHECK(A.determinant() == Approx(-1).margin(1e-3));
