@@ -1,6 +1,6 @@
 // Time of the segmentation by stage, on the phantom of a chest CT (290 × 380 × 62) and, when
-// SHAPE3D_DATA is set, on the region x 110:400, y 120:500 of the CT that is as large. Volumes are made
-// and read outside the timed loop.
+// SHAPE3D_DATA is set, on the region x 110:400, y 120:500 of the CT that is as large. Volumes are
+// made and read outside the timed loop.
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
@@ -39,8 +39,7 @@ Scene real() {
     scene.missing = "SHAPE3D_DATA is not set";
     return scene;
   }
-  const std::string path =
-      std::string(folder) + "/table31/T3_512x512x62_lungpetctdx-A0001.raw";
+  const std::string path = std::string(folder) + "/table31/T3_512x512x62_lungpetctdx-A0001.raw";
   scene.samples.resize(std::size_t{512} * 512 * 62);
   std::ifstream file(path, std::ios::binary);
   file.read(reinterpret_cast<char*>(scene.samples.data()),

@@ -38,6 +38,7 @@ void add_align(CLI::App& app, Settings& settings);
 void add_repair(CLI::App& app, Settings& settings);
 void add_simplify(CLI::App& app, Settings& settings);
 void add_wrap(CLI::App& app, Settings& settings);
+void add_segment(CLI::App& app, Settings& settings);
 
 /// Prints "shape3d: warning: SENTENCE" on standard error unless settings.quiet.
 void warn(const Settings& settings, const std::string& sentence);

@@ -32,8 +32,8 @@ struct SphericalMapOptions {
   /// turned so that it lies as the posed mesh does. In SO(3).
   Eigen::Matrix3d pose = Eigen::Matrix3d::Identity();
   /// Weight w ≥ 0 of w Σ A log²(area scale) in a second minimisation, which trades conformality for
-  /// coverage: long extrusions get more of the sphere. 0: none; 0.1 halves the logarithm of the
-  /// worst scale or better, at σ1/σ2 of 2 to 3 there.
+  /// coverage: long extrusions get more of the sphere. 0: none. The larger, the more even the areas
+  /// and the more distorted the angles: see conformal_distortion and distortion of the result.
   double area_balance = 0;
   int max_iterations = 100;  ///< Of Ceres; at least 1.
   double function_tolerance =
