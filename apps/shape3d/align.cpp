@@ -6,6 +6,7 @@
 
 #include "common/error.hpp"
 #include "mapping_report.hpp"
+#include "mesh_commands.hpp"
 #include "mesh_subject.hpp"
 
 namespace shape3d::apps {

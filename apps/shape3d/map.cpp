@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "mapping_report.hpp"
+#include "mesh_commands.hpp"
 #include "mesh_subject.hpp"
 #include "simplify.hpp"
 

@@ -11,6 +11,7 @@
 #include "common/interrupt.hpp"
 #include "common/memory_limit.hpp"
 #include "common/text.hpp"
+#include "mesh_commands.hpp"
 
 namespace shape3d::apps {
 namespace {

@@ -33,11 +33,6 @@ void add_check(CLI::App& app, Settings& settings);
 void add_render(CLI::App& app, Settings& settings);
 void add_compare(CLI::App& app, Settings& settings);
 void add_describe(CLI::App& app, Settings& settings);
-void add_map(CLI::App& app, Settings& settings);
-void add_align(CLI::App& app, Settings& settings);
-void add_repair(CLI::App& app, Settings& settings);
-void add_simplify(CLI::App& app, Settings& settings);
-void add_wrap(CLI::App& app, Settings& settings);
 void add_segment(CLI::App& app, Settings& settings);
 
 /// Prints "shape3d: warning: SENTENCE" on standard error unless settings.quiet.

@@ -9,6 +9,7 @@
 #include "common/byte_source.hpp"
 #include "common/error.hpp"
 #include "mapping_report.hpp"
+#include "mesh_commands.hpp"
 #include "mesh_subject.hpp"
 #include "simplify.hpp"
 

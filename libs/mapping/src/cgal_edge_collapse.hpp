@@ -36,6 +36,11 @@ inline CollapseMesh to_collapse_mesh(const CollapseTask& task) {
   return mesh;
 }
 
+/// The nearest multiple of `lattice`; 0, not −0.
+inline double on_lattice(double x, double lattice) {
+  return lattice * std::nearbyint(x / lattice) + 0.0;
+}
+
 /// The nearest lattice point, unless the placement is an end of the edge.
 template <class Placement>
 class OnLattice {
@@ -47,7 +52,7 @@ class OnLattice {
   boost::optional<typename Profile::Point> operator()(const Profile& profile) const {
     auto point = placement_(profile);
     if (!point || *point == profile.p0() || *point == profile.p1()) return point;
-    const auto round = [this](double x) { return lattice_ * std::nearbyint(x / lattice_); };
+    const auto round = [this](double x) { return on_lattice(x, lattice_); };
     return typename Profile::Point(round(point->x()), round(point->y()), round(point->z()));
   }
 

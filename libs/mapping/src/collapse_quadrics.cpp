@@ -132,7 +132,7 @@ class Quadrics {
         if (sum.at(end) < sum.at(x)) x = end;
     }
     if (x != p0 && x != p1)
-      for (int i = 0; i < 3; ++i) x[i] = lattice_ * std::nearbyint(x[i] / lattice_);
+      for (int i = 0; i < 3; ++i) x[i] = on_lattice(x[i], lattice_);
     entry.placement = {x[0], x[1], x[2]};
     entry.cost = sum.at(x) + kShort * sum.area * reach;
   }

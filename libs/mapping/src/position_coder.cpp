@@ -49,7 +49,8 @@ void PositionCoder::Grid::set(Kind new_kind, int new_exponent) {
 double PositionCoder::Grid::nearest(double x) const {
   const double number =
       std::nearbyint(kind == Kind::decimal ? x * factor : std::ldexp(x, -exponent));
-  return std::abs(number) <= kLargest ? number : 0.0;  // 0 for a neighbour is as good as any
+  // Without the sign of −0, which whole numbers do not have. 0 for a neighbour is as good as any.
+  return std::abs(number) <= kLargest ? number + 0.0 : 0.0;
 }
 
 double PositionCoder::Grid::value(double number) const {
