@@ -80,6 +80,7 @@ int run_program(int argc, char** argv) {
   add_check(app, settings);
   add_render(app, settings);
   add_compare(app, settings);
+  add_segment(app, settings);
   for (CLI::App* command : commands_of(app)) add_shared_options(*command, settings);
   if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
     return fail(std::string("unknown command '") + argv[1] + "', expected " + command_names(app),

@@ -103,7 +103,16 @@ SHAPE3D_LEVELSET_INLINE void add_to(const float* __restrict before, const float*
   std::copy_n(lanes, 16, change.lanes);
 }
 
+SHAPE3D_LEVELSET_INLINE int near_nodes(const float* psi, int count, float limit) {
+  int found = 0;
+  for (int i = 0; i < count; ++i) found += std::abs(psi[i]) < limit ? 1 : 0;
+  return found;
+}
+
 #if SHAPE3D_LEVELSET_X86
+SHAPE3D_LEVELSET_TARGET_AVX2 int near_avx2(const float* psi, int count, float limit) {
+  return near_nodes(psi, count, limit);
+}
 SHAPE3D_LEVELSET_TARGET_AVX2 void advance_avx2(const float* psi, std::int64_t row,
                                                std::int64_t slice, const float* advance,
                                                const float* factor, int count, const Spacings& h,
@@ -115,6 +124,9 @@ SHAPE3D_LEVELSET_TARGET_AVX2 void change_avx2(const float* before, const float* 
   add_to(before, after, count, slope, change);
 }
 #endif
+int near_portable(const float* psi, int count, float limit) {
+  return near_nodes(psi, count, limit);
+}
 void advance_portable(const float* psi, std::int64_t row, std::int64_t slice, const float* advance,
                       const float* factor, int count, const Spacings& h, const Step& step,
                       float* out) {
@@ -131,6 +143,10 @@ void advance_row(const float* psi, std::int64_t row, std::int64_t slice, const f
                  const float* factor, int count, const Spacings& spacings, const Step& step,
                  float* out) {
   SHAPE3D_LEVELSET_DISPATCH(advance, psi, row, slice, advance, factor, count, spacings, step, out);
+}
+
+int count_near(const float* psi, int count, float limit) {
+  return SHAPE3D_LEVELSET_DISPATCH(near, psi, count, limit);
 }
 
 void add_change(const float* before, const float* after, int count, float slope, Change& change) {

@@ -24,6 +24,9 @@ void advance_row(const float* psi, std::int64_t row, std::int64_t slice, const f
                  const float* factor, int count, const Spacings& spacings, const Step& step,
                  float* out);
 
+/// The number of nodes of a row with |ψ| < limit.
+int count_near(const float* psi, int count, float limit);
+
 /// What changed in the nodes of a row, summed in an order that no instruction set changes.
 struct Change {
   int crossed = 0;       ///< Nodes that changed sides; zero belongs to the inside.

@@ -19,16 +19,18 @@ class BoundaryDistance {
   [[nodiscard]] const Lattice& lattice() const { return lattice_; }
 
   /// Computes the distance to the boundary at `levels` = model.levels(λ), or at one of its levels.
-  /// Returns the tiles where it may be less than the limit, ascending; outside them field() is not
-  /// set.
+  /// Returns the tiles where it may be less than the limit, ascending; rows() has their rows. What
+  /// field() has elsewhere means nothing.
   const std::vector<std::int64_t>& compute(double lambda, const std::vector<double>& levels);
   /// Signed distance, padded: negative inside.
   [[nodiscard]] const Field& field() const { return from_; }
-  /// −1 or 1 for a tile outside the list of compute(): the side it lies on.
-  [[nodiscard]] float side(std::int64_t tile) const;
+  /// By tile: the rows that were computed.
+  [[nodiscard]] const std::vector<RowMask>& rows() const { return rows_; }
+  /// −1 or 1: the side on which a dense row lies that was not computed.
+  [[nodiscard]] float side(std::int64_t padded_row) const;
 
  private:
-  void find_tiles(double lambda, const std::vector<double>& levels);
+  void find_rows(double lambda, const std::vector<double>& levels);
 
   Lattice lattice_;
   const IntensityModel& model_;
@@ -39,7 +41,11 @@ class BoundaryDistance {
   Field intensity_;    // padded
   Field level_field_;  // with several levels: distance in intensity to the nearest, padded
   Field from_, to_;
-  std::vector<float> least_, greatest_;  // of a tile and the nodes that its distances depend on
+  struct Range {
+    float least, greatest;
+  };
+  std::vector<Range> ranges_;  // by tile and row: of the row and the nodes beside it
+  std::vector<RowMask> rows_;
   std::vector<std::int64_t> tiles_;
   double lambda_ = 0.0;
 };

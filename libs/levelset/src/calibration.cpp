@@ -15,9 +15,15 @@ namespace {
 
 using detail::text;
 
-/// Beyond 3.1 ℓ, Y < 7e-5 counts as 0; in the sums of S(w), which look at it many times, beyond 2.2
-/// ℓ, where it is under 0.008.
-constexpr double kReach = 3.1, kOverlapReach = 2.2;
+/// Beyond 3.1 ℓ, Y < 7e-5 counts as 0; in the sums of S(w), which look at it many times, beyond 2
+/// ℓ, where it is under 0.02.
+constexpr double kReach = 3.1, kOverlapReach = 2.0;
+
+/// Nodes away from those beside the boundary that are nearer than 2 ℓ, but for a fifth of a node.
+int overlap_passes(double width, const Grid& grid) {
+  return std::max(
+      1, static_cast<int>(std::ceil(kOverlapReach * width / grid.spacing.minCoeff() - 1.2)));
+}
 
 double width_or_default(double boundary_width, const Grid& grid) {
   detail::require(std::isfinite(boundary_width) && boundary_width >= 0.0, "boundary_width",
@@ -31,8 +37,7 @@ class OverlapMeter {
   OverlapMeter(const ImageView& image, const Field& gradient, const IntensityModel& model,
                const CalibrationOptions& options, int threads)
       : width_(width_or_default(options.boundary_width, image.grid())),
-        distance_(image, model, kOverlapReach * width_,
-                  std::max(1, static_cast<int>(kOverlapReach * width_ / image.spacing.minCoeff())),
+        distance_(image, model, kOverlapReach * width_, overlap_passes(width_, image.grid()),
                   threads),
         gradient_(gradient),
         overlap_(options.overlap),
@@ -53,19 +58,18 @@ class OverlapMeter {
     const detail::Lattice& lattice = distance_.lattice();
     detail::parallel_for(static_cast<std::int64_t>(tiles.size()), threads_, [&](std::int64_t n) {
       double product = 0.0, square = 0.0;
-      lattice.for_rows(lattice.tiles[tiles[static_cast<std::size_t>(n)]],
-                       [&](std::int64_t row, std::int64_t dense, int count) {
-                         float y[detail::kTileX];
-                         std::copy_n(distance_.field().data() + row, count, y);
-                         detail::bell(count, static_cast<float>(1.0 / width_), limit, y);
-                         float by = 0.0F, yy = 0.0F;
-                         for (int i = 0; i < count; ++i) {
-                           by += gradient_[dense + i] * y[i];
-                           yy += y[i] * y[i];
-                         }
-                         product += static_cast<double>(by);
-                         square += static_cast<double>(yy);
-                       });
+      const std::int64_t t = tiles[static_cast<std::size_t>(n)];
+      lattice.for_rows(
+          lattice.tiles[t], distance_.rows()[static_cast<std::size_t>(t)],
+          [&](std::int64_t row, std::int64_t dense, int count) {
+            float y[detail::kTileX];
+            std::copy_n(distance_.field().data() + row, count, y);
+            detail::bell(count, static_cast<float>(1.0 / width_), limit, y);
+            const detail::Products sums = detail::add_products(gradient_.data() + dense, y, count);
+            product += static_cast<double>(sums.ab);
+            square += static_cast<double>(sums.bb);
+          },
+          [](std::int64_t, std::int64_t, int) {});
       products[static_cast<std::size_t>(n)] = product;
       squares[static_cast<std::size_t>(n)] = square;
     });
@@ -237,23 +241,22 @@ Field boundary_distance(const ImageView& image, const IntensityModel& model, dou
   const int threads = detail::resolve_threads(requested_threads);
   detail::require_finite(image, threads);
   const auto reach = static_cast<float>(limit);
-  const int passes = static_cast<int>(std::min(std::ceil(limit / image.spacing.minCoeff()), 64.0));
+  // Distance spreads by one node a pass, along the diagonal of a cell by one in three.
+  const int passes = static_cast<int>(
+      std::min(std::ceil(std::sqrt(3.0) * limit / image.spacing.minCoeff()), 64.0));
   detail::BoundaryDistance distance(image, model, limit, passes, threads);
-  const std::vector<std::int64_t>& near = distance.compute(lambda, model.levels(lambda));
+  distance.compute(lambda, model.levels(lambda));
   const detail::Lattice& lattice = distance.lattice();
   Field result(lattice.grid.size());
-  std::vector<char> is_near(static_cast<std::size_t>(lattice.tiles.size()), 0);
-  for (const std::int64_t t : near) is_near[static_cast<std::size_t>(t)] = 1;
   detail::parallel_for(lattice.tiles.size(), threads, [&](std::int64_t t) {
-    const bool computed = is_near[static_cast<std::size_t>(t)] != 0;
-    const float far = computed ? 0.0F : distance.side(t) * reach;
-    lattice.for_rows(lattice.tiles[t], [&](std::int64_t row, std::int64_t dense, int count) {
-      if (computed) {
-        std::copy_n(distance.field().data() + row, count, result.data() + dense);
-      } else {
-        std::fill_n(result.data() + dense, count, far);
-      }
-    });
+    lattice.for_rows(
+        lattice.tiles[t], distance.rows()[static_cast<std::size_t>(t)],
+        [&](std::int64_t row, std::int64_t dense, int count) {
+          std::copy_n(distance.field().data() + row, count, result.data() + dense);
+        },
+        [&](std::int64_t row, std::int64_t dense, int count) {
+          std::fill_n(result.data() + dense, count, distance.side(row) * reach);
+        });
   });
   return result;
 }

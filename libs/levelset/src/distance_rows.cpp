@@ -25,23 +25,20 @@ SHAPE3D_LEVELSET_INLINE int beside(const RowView& f, LevelOf level, int count, c
     const float xm = s * (c[i - 1] - zero), xp = s * (c[i + 1] - zero);
     const float am = s * (ym[i] - zero), ap = s * (yp[i] - zero);
     const float bm = s * (zm[i] - zero), bp = s * (zp[i] - zero);
-    // Inverse distance to the crossing of an axis, in 1/h: (|v| + |n|)/|v|; 0 without one.
-    const float x = std::max(xm <= 0.0F ? std::min(1.0F - xm * r, cap) : 0.0F,
-                             xp <= 0.0F ? std::min(1.0F - xp * r, cap) : 0.0F) *
-                    ix;
-    const float y = std::max(am <= 0.0F ? std::min(1.0F - am * r, cap) : 0.0F,
-                             ap <= 0.0F ? std::min(1.0F - ap * r, cap) : 0.0F) *
-                    iy;
-    const float z = std::max(bm <= 0.0F ? std::min(1.0F - bm * r, cap) : 0.0F,
-                             bp <= 0.0F ? std::min(1.0F - bp * r, cap) : 0.0F) *
-                    iz;
+    // Slope along an axis over |v|, times h: (|v| − n)/|v| towards the nearer crossing, and where
+    // there is none, towards the lower neighbour.
+    const float x = std::min(std::max(1.0F - std::min(xm, xp) * r, 0.0F), cap) * ix;
+    const float y = std::min(std::max(1.0F - std::min(am, ap) * r, 0.0F), cap) * iy;
+    const float z = std::min(std::max(1.0F - std::min(bm, bp) * r, 0.0F), cap) * iz;
+    const float least = std::min(std::min(xm, xp), std::min(std::min(am, ap), std::min(bm, bp)));
     const float two_sided =
         std::min(std::max(xm, xp), std::min(std::max(am, ap), std::max(bm, bp)));
     const float plane = std::sqrt(x * x + y * y + z * z), nearest = std::max(x, std::max(y, z));
     const float inverse = two_sided <= 0.0F ? nearest : plane;
     const float elsewhere = std::abs(v) < far_limit ? std::abs(v) : limit;
-    const float d = inverse > 0.0F ? std::min(1.0F / inverse, limit) : elsewhere;
-    found += (inverse > 0.0F) | (v == 0.0F) ? 1 : 0;
+    const bool is_beside = least <= 0.0F;
+    const float d = is_beside ? std::min(1.0F / inverse, limit) : elsewhere;
+    found += is_beside | (v == 0.0F) ? 1 : 0;
     const float signed_d = v < 0.0F ? -d : d;
     out[i] = v == 0.0F ? 0.0F : signed_d;
   }

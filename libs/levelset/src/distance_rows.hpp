@@ -44,11 +44,12 @@ enum class Far {
 
 /// Signed distance of the nodes beside the zero set, 0 at zeros.
 ///
-/// A node is beside it when one of its six neighbours has the other sign or is zero. The crossing
-/// of a lattice edge is placed by linear interpolation; with crossings at t_x, t_y, t_z along the
-/// axes (the nearer of the two sides) the plane through them is at (Σ t⁻²)^(−½). Where both sides
-/// of an axis are crossed the object is one node thin and has no such plane: there it is the least
-/// t, which leaves the crossings where they are.
+/// A node is beside it when one of its six neighbours has the other sign or is zero. Its distance
+/// is |v| over the length of the one-sided slopes (|v| − n)/h towards the lower neighbour n of each
+/// axis (n < 0 across the front): that to the plane through the crossings, which lie where linear
+/// interpolation puts them, also where a crossing is more than one spacing away. Where both sides
+/// of an axis are crossed the object is one node thin and has no such plane: there it is the
+/// distance to the nearest crossing, which leaves the crossings where they are.
 /// @return  The number of nodes beside the zero set.
 int distance_beside(const RowView& field, LevelOf level, int count, const Spacings& spacings,
                     float limit, Far far, float* out);

@@ -117,7 +117,11 @@ Evolution evolve(const Grid& grid, const Field& psi, const Field& advance, const
   detail::Step step = make_step(grid, options, limit);
   Forecast forecast(options.max_iterations);
   FrontStatistics statistics;
-  double since_redistance = 0.0;
+  // Redistancing moves a curved front by a share of h²/r. So it is done by the way that the front
+  // may have gone, not by the number of steps, which curvature makes short; a curvature of half a
+  // spacing is as much as counts.
+  const double reach = options.redistance_interval * options.cfl / std::sqrt(square);
+  double since_redistance = 0.0, travelled = 0.0;
   for (int iteration = 1;; ++iteration) {
     const double rate =
         band.max_speed() * std::sqrt(square) + 2.0 * options.curvature * max_factor * square;
@@ -130,13 +134,14 @@ Evolution evolve(const Grid& grid, const Field& psi, const Field& advance, const
     statistics.time += step.dt;
     statistics.crossed = band.advance(step);
     since_redistance += step.dt;
+    travelled += step.dt * (band.max_speed() + options.curvature * max_factor * 0.5 / least);
     const bool last = iteration == options.max_iterations || still;
-    if (last || iteration % options.redistance_interval == 0) {
+    if (last || travelled >= 0.999 * reach) {
       const detail::NarrowBand::Motion motion =
           band.redistance(options.tolerance * since_redistance);
       statistics.speed = since_redistance > 0.0 ? motion.mean / since_redistance : 0.0;
       statistics.front_nodes = motion.nodes;
-      since_redistance = 0.0;
+      since_redistance = travelled = 0.0;
     }
     statistics.inside = band.inside();
     result.iterations.push_back(statistics);

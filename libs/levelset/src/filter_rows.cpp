@@ -57,6 +57,28 @@ SHAPE3D_LEVELSET_INLINE void bell_row(std::int64_t count, float scale, float lim
   }
 }
 
+SHAPE3D_LEVELSET_INLINE Products sum_products(const float* __restrict a, const float* __restrict b,
+                                              std::int64_t count) {
+  float ab[16] = {}, bb[16] = {};
+  std::int64_t i = 0;
+  for (; i + 16 <= count; i += 16) {
+    for (int lane = 0; lane < 16; ++lane) {
+      ab[lane] += a[i + lane] * b[i + lane];
+      bb[lane] += b[i + lane] * b[i + lane];
+    }
+  }
+  for (int lane = 0; i < count; ++i, ++lane) {
+    ab[lane] += a[i] * b[i];
+    bb[lane] += b[i] * b[i];
+  }
+  Products sum{0.0F, 0.0F};
+  for (int lane = 0; lane < 16; ++lane) {
+    sum.ab += ab[lane];
+    sum.bb += bb[lane];
+  }
+  return sum;
+}
+
 #if SHAPE3D_LEVELSET_X86
 #define SHAPE3D_LEVELSET_AVX2_AND_PORTABLE(name, inner, parameters, ...)           \
   SHAPE3D_LEVELSET_TARGET_AVX2 void name##_avx2 parameters { inner(__VA_ARGS__); } \
@@ -84,6 +106,15 @@ SHAPE3D_LEVELSET_AVX2_AND_PORTABLE(bells, bell_row,
                                    (std::int64_t count, float scale, float limit, float* row),
                                    count, scale, limit, row)
 #undef SHAPE3D_LEVELSET_AVX2_AND_PORTABLE
+#if SHAPE3D_LEVELSET_X86
+SHAPE3D_LEVELSET_TARGET_AVX2 Products products_avx2(const float* a, const float* b,
+                                                    std::int64_t count) {
+  return sum_products(a, b, count);
+}
+#endif
+Products products_portable(const float* a, const float* b, std::int64_t count) {
+  return sum_products(a, b, count);
+}
 
 }  // namespace
 
@@ -100,6 +131,9 @@ void convolve_row(const float* in, std::int64_t count, const float* kernel, int 
 }
 void magnitude(const float* x, const float* y, const float* z, std::int64_t count, float* out) {
   SHAPE3D_LEVELSET_DISPATCH(length, x, y, z, count, out);
+}
+Products add_products(const float* a, const float* b, std::int64_t count) {
+  return SHAPE3D_LEVELSET_DISPATCH(products, a, b, count);
 }
 void bell(std::int64_t count, float scale, float limit, float* row) {
   SHAPE3D_LEVELSET_DISPATCH(bells, count, scale, limit, row);

@@ -17,6 +17,12 @@ void convolve_row(const float* in, std::int64_t count, const float* kernel, int 
 /// out[i] = √(x² + y² + z²).
 void magnitude(const float* x, const float* y, const float* z, std::int64_t count, float* out);
 
+/// Σ a·b and Σ b·b, in an order that no instruction set changes.
+struct Products {
+  float ab, bb;
+};
+Products add_products(const float* a, const float* b, std::int64_t count);
+
 /// In place: row[i] = exp(−(row[i] · scale)²), 0 where |row[i]| ≥ limit. Relative error under 4e-5
 /// for exponents up to 10.
 void bell(std::int64_t count, float scale, float limit, float* row);

@@ -89,8 +89,8 @@ Field redistance(const Grid& grid, const Field& psi, double limit, int requested
   Field from = detail::pad(lattice, psi, threads), to(from.size());
   const auto reach = static_cast<float>(limit);
   detail::parallel_for(lattice.tiles.size(), threads, [&](std::int64_t t) {
-    detail::tile_distance_beside(lattice, lattice.tiles[t], {}, reach, detail::Far::cut,
-                                 from.data(), to.data());
+    detail::tile_distance_beside(lattice, lattice.tiles[t], detail::kAllRows, {}, reach,
+                                 detail::Far::cut, from.data(), to.data());
   });
   // Distance spreads by one node a pass, along the diagonal of a cell by one in three.
   const int passes =
@@ -99,7 +99,8 @@ Field redistance(const Grid& grid, const Field& psi, double limit, int requested
   for (int pass = 0; pass < passes; ++pass) {
     std::swap(from, to);
     detail::parallel_for(lattice.tiles.size(), threads, [&](std::int64_t t) {
-      detail::tile_relax(lattice, lattice.tiles[t], reach, from.data(), to.data());
+      detail::tile_relax(lattice, lattice.tiles[t], detail::kAllRows, false, reach, from.data(),
+                         to.data());
     });
   }
   from.resize(0);

@@ -113,11 +113,25 @@ GaussianMixture spread_start(const Sample& sample, int classes) {
   return start;
 }
 
+/// Means drawn from the samples, the first evenly, the others by the square of the distance to
+/// those drawn before (k-means++): starts from one peak alone would never leave it.
 GaussianMixture random_start(const Sample& sample, int classes, detail::Random& random) {
   GaussianMixture start;
   start.means.resize(classes);
-  for (int k = 0; k < classes; ++k)
-    start.means[k] = sample.values[quantile_bin(sample, random.uniform())];
+  Eigen::ArrayXd chances = sample.counts;
+  for (int k = 0; k < classes; ++k) {
+    const double place = random.uniform() * chances.sum();
+    double below = 0.0;
+    Eigen::Index bin = 0;
+    for (Eigen::Index b = 0; b < chances.size(); ++b) {
+      if (chances[b] > 0.0) bin = b;
+      below += chances[b];
+      if (below > place) break;
+    }
+    start.means[k] = sample.values[bin];
+    const Eigen::ArrayXd square = (sample.values - start.means[k]).square();
+    chances = k == 0 ? (sample.counts * square).eval() : chances.min(sample.counts * square).eval();
+  }
   start.weights = Eigen::ArrayXd::Constant(classes, 1.0 / classes);
   start.variances =
       Eigen::ArrayXd::Constant(classes, std::max(sample.variance / classes, sample.floor));

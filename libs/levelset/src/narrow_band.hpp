@@ -11,8 +11,10 @@ namespace shape3d::levelset::detail {
 /// ψ in two buffers and the tiles that are computed.
 ///
 /// A step reads one buffer and writes the other, tile by tile. Tiles that are not active hold the
-/// same values in both. A tile is active when the front is in it or in one that touches it, and has
-/// moved, in one of these, since the redistancing before the last.
+/// same values in both. In an active tile only the rows are computed that hold a node nearer than
+/// the band's limit, or lie beside one that does; the others are copied. A tile is active when the
+/// front is in it or in one that touches it, and has moved, in one of these, since the redistancing
+/// before the last.
 class NarrowBand {
  public:
   /// @param psi     Any function of the right signs. The first redistancing is done here.
@@ -43,20 +45,23 @@ class NarrowBand {
   [[nodiscard]] Field take();
 
  private:
-  void spread(const std::vector<std::int64_t>& tiles);
+  template <class Body>
+  void for_active(const Body& body);
+  void spread();
   void settle(const std::vector<char>& was, const std::vector<char>& now);
 
   const Lattice& lattice_;
   const Field &speed_, &factor_;
   Field current_, next_;
   float limit_, slope_;
-  int threads_;
+  int threads_, redistancings_ = 0;
   std::vector<std::int64_t> active_;
   std::vector<char> is_active_;
   // By tile:
+  std::vector<RowMask> near_, next_near_;  // rows with a node nearer than the limit
   std::vector<float> max_speed_;
   std::vector<int> inside_, crossed_, beside_;
-  std::vector<double> volume_, volume_before_;
+  std::vector<double> volume_, volume_before_, anchor_;
 };
 
 }  // namespace shape3d::levelset::detail

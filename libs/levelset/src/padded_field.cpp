@@ -56,23 +56,33 @@ void set_ghosts(const Lattice& lattice, const Tile& tile, float* field) {
   }
 }
 
-int tile_distance_beside(const Lattice& lattice, const Tile& tile, LevelOf level, float limit,
-                         Far far, const float* field, float* out) {
+int tile_distance_beside(const Lattice& lattice, const Tile& tile, RowMask mask, LevelOf level,
+                         float limit, Far far, const float* field, float* out) {
   int found = 0;
-  lattice.for_rows(tile, [&](std::int64_t row, std::int64_t /*dense*/, int count) {
-    found += distance_beside(row_view(field + row, lattice.padded.row, lattice.padded.slice), level,
-                             count, lattice.spacings, limit, far, out + row);
-  });
+  lattice.for_rows(
+      tile, mask,
+      [&](std::int64_t row, std::int64_t /*dense*/, int count) {
+        found += distance_beside(row_view(field + row, lattice.padded.row, lattice.padded.slice),
+                                 level, count, lattice.spacings, limit, far, out + row);
+      },
+      [&](std::int64_t row, std::int64_t /*dense*/, int count) {
+        if (far == Far::kept) std::copy_n(field + row, count, out + row);
+      });
   set_ghosts(lattice, tile, out);
   return found;
 }
 
-void tile_relax(const Lattice& lattice, const Tile& tile, float limit, const float* distance,
-                float* out) {
-  lattice.for_rows(tile, [&](std::int64_t row, std::int64_t /*dense*/, int count) {
-    relax_distance(row_view(distance + row, lattice.padded.row, lattice.padded.slice), count,
-                   lattice.spacings, limit, out + row);
-  });
+void tile_relax(const Lattice& lattice, const Tile& tile, RowMask mask, bool copy, float limit,
+                const float* distance, float* out) {
+  lattice.for_rows(
+      tile, mask,
+      [&](std::int64_t row, std::int64_t /*dense*/, int count) {
+        relax_distance(row_view(distance + row, lattice.padded.row, lattice.padded.slice), count,
+                       lattice.spacings, limit, out + row);
+      },
+      [&](std::int64_t row, std::int64_t /*dense*/, int count) {
+        if (copy) std::copy_n(distance + row, count, out + row);
+      });
   set_ghosts(lattice, tile, out);
 }
 

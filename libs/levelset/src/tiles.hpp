@@ -35,6 +35,11 @@ struct Tile {
   std::int64_t x0, x1, y0, y1, z0, z1;
 };
 
+/// Rows of a tile, one bit each: row (j, k) of the tile is bit j + 8·k.
+using RowMask = std::uint64_t;
+static_assert(kTileY == 8 && kTileZ == 8);
+constexpr RowMask kAllRows = ~RowMask{0};
+
 /// The tiling of a lattice, tiles numbered x fastest.
 class Tiles {
  public:
@@ -64,6 +69,23 @@ class Tiles {
       stride *= count;
     }
     return result;
+  }
+
+  /// The rows of tile t that are in `masks` or beside one that is, along any axis.
+  [[nodiscard]] RowMask with_neighbours(const std::vector<RowMask>& masks, std::int64_t t) const {
+    constexpr RowMask kFirst = 0x0101010101010101u, kNotLast = 0x7f7f7f7f7f7f7f7fu;
+    const std::int64_t x = t % count_[0], y = t / count_[0] % count_[1],
+                       z = t / (count_[0] * count_[1]);
+    const auto of = [&](std::int64_t place, std::int64_t count, std::int64_t tile) {
+      return place >= 0 && place < count ? masks[static_cast<std::size_t>(tile)] : RowMask{0};
+    };
+    const std::int64_t row = count_[0], slice = count_[0] * count_[1];
+    const RowMask own = masks[static_cast<std::size_t>(t)];
+    return own | of(x - 1, count_[0], t - 1) | of(x + 1, count_[0], t + 1) |
+           ((own & kNotLast) << 1) | ((own >> 1) & kNotLast) | own << 8 | own >> 8 |
+           ((of(y - 1, count_[1], t - row) >> 7) & kFirst) |
+           ((of(y + 1, count_[1], t + row) & kFirst) << 7) | of(z - 1, count_[2], t - slice) >> 56 |
+           of(z + 1, count_[2], t + slice) << 56;
   }
 
  private:

@@ -168,8 +168,7 @@ TEST_CASE("no variance falls under the floor", "[levelset][em]") {
   CHECK(std::isfinite(fit.log_likelihood));
 }
 
-TEST_CASE("misfit is zero for the mixture itself and the weighted square else",
-          "[levelset][em]") {
+TEST_CASE("misfit is zero for the mixture itself and the weighted square else", "[levelset][em]") {
   CHECK(misfit(kLungHistogram, kLungLike) < 1e-5);
   // H and P of two bins of width 1: ∑ (P − H)²/H, with P from the closed form.
   Histogram h;
@@ -179,8 +178,7 @@ TEST_CASE("misfit is zero for the mixture itself and the weighted square else",
   h.counts << 3, 1;
   const GaussianMixture p = mixture({{1.0, 0.0, 1.0}});
   const double p0 = 0.3989422804014327, p1 = 0.24197072451914337;
-  const double expected =
-      (p0 - 0.75) * (p0 - 0.75) / 0.75 + (p1 - 0.25) * (p1 - 0.25) / 0.25;
+  const double expected = (p0 - 0.75) * (p0 - 0.75) / 0.75 + (p1 - 0.25) * (p1 - 0.25) / 0.25;
   CHECK(misfit(h, p) == Approx(expected));
   CHECK(p.density(1.0) == Approx(p1));
 }

@@ -1,9 +1,11 @@
 #include "pipeline.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "parallel.hpp"
 #include "plan.hpp"
@@ -42,16 +44,30 @@ LayerLoop layer_loop(const Options& options, std::int64_t samples, double from, 
       parallel_ranges(count, kGrain, threads, body);
       return true;
     }
-    constexpr std::int64_t kBatches = 16;
-    const std::int64_t step = std::max<std::int64_t>(1, (count + kBatches - 1) / kBatches);
-    for (std::int64_t first = 0; first < count; first += step) {
-      const std::int64_t last = std::min(first + step, count);
-      parallel_ranges(last - first, kGrain, threads,
-                      [&](std::int64_t a, std::int64_t b) { body(first + a, first + b); });
-      const double share = static_cast<double>(last) / static_cast<double>(count);
+    // Threads go on working while the calling one reports between two ranges of its own.
+    constexpr std::int64_t kReports = 16;
+    const std::int64_t step = std::max<std::int64_t>(1, (count + kReports - 1) / kReports);
+    const std::thread::id caller = std::this_thread::get_id();
+    std::atomic<std::int64_t> done{0};
+    std::atomic<bool> cancelled{false};
+    std::int64_t reported = 0;  // the calling thread's own
+    const auto report = [&](std::int64_t layers) {
+      reported = layers;
+      const double share = static_cast<double>(layers) / static_cast<double>(count);
       reached = std::max(reached, from + (to - from) * share);  // several loops may share the range
-      if (!options.progress(reached)) return false;
-    }
+      if (!options.progress(reached)) cancelled = true;
+    };
+    parallel_ranges(count, kGrain, threads, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t next = 0; first < last && !cancelled; first = next) {
+        next = std::min(first + step, last);
+        body(first, next);
+        const std::int64_t layers = done += next - first;
+        if (std::this_thread::get_id() == caller && layers < count && layers - reported >= step)
+          report(layers);
+      }
+    });
+    if (!cancelled && count > 0) report(count);
+    if (cancelled) return false;
     return true;
   };
 }

@@ -22,8 +22,10 @@ enum class CsmVariant {
 /// Settings of the concentric spheres model.
 struct CsmOptions {
   CsmVariant variant = CsmVariant::shells;
-  int R = 5;  ///< Spheres, 1 … side/2.
-  int K = 8;  ///< Largest degree of the spherical harmonics, 0 … side/2 − 1.
+  bool weighted = false;  ///< shells: each times its middle radius, the root of its area, as
+                          ///< kazhdan always is.
+  int R = 5;              ///< Spheres, 1 … side/2.
+  int K = 8;              ///< Largest degree of the spherical harmonics, 0 … side/2 − 1.
 };
 
 /// Numbers of the descriptor.

@@ -10,6 +10,7 @@
 #include "shape3d/descriptors/export.hpp"
 #include "shape3d/descriptors/parameters.hpp"
 #include "shape3d/descriptors/surface.hpp"
+#include "shape3d/descriptors/voxels.hpp"
 
 namespace shape3d::descriptors {
 
@@ -51,6 +52,13 @@ class SHAPE3D_DESCRIPTORS_EXPORT Descriptor {
   [[nodiscard]] Eigen::VectorXd compute(const Eigen::Ref<const Points>& V,
                                         const Eigen::Ref<const Triangles>& F,
                                         int threads = 0) const;
+
+  /// What the mesh is voxelized by; null for descriptors that are not of voxels.
+  [[nodiscard]] const VoxelizeOptions* voxels() const;
+
+  /// The vector from voxels made by *voxels(): several descriptors can share them.
+  /// @throws std::invalid_argument  voxels() is null; their side is another.
+  [[nodiscard]] Eigen::VectorXd compute(const Voxels& voxels, int threads = 0) const;
 
   /// The same with a spherical map, for every kind; those of solid space do not look at it.
   /// @param S  #V by 3 unit vectors: the image of each vertex on the sphere.

@@ -35,7 +35,8 @@ struct HshOptions {
   SphereMap map = SphereMap::equal_volume;
   double stretch = 4.0;  ///< s of SphereMap::stereographic, 0.1 … 100.
   Quadrature quadrature = Quadrature::voxels;
-  int grid = 20;  ///< Angles along each of θ0, θ, φ for Quadrature::svd, 2K + 2 … 40.
+  int grid = 0;  ///< n of HshSampling for separable and svd; 0: the larger of K + 1 and side/2 for
+                 ///< separable, of 20 (the dissertation's) and 2K + 2 for svd.
 };
 
 /// θ0 of the sphere map (the upper half of two_sided). @param rho  In [0, 1].
@@ -112,6 +113,13 @@ class SHAPE3D_DESCRIPTORS_EXPORT HshTransform {
 /// then λ ≥ l, then λ' = λ … K. Their diagonal is the energies squared; the rest says how the
 /// radial parts of one l are turned against one another, which norms forget.
 [[nodiscard]] SHAPE3D_DESCRIPTORS_EXPORT Eigen::VectorXd gram_invariants(
+    const HshCoefficients& coefficients);
+
+/// Square roots of the Gram matrices G_l, symmetric and positive: as gram_invariants(), with the
+/// numbers off the diagonal times √2, so that the Euclidean distance of two vectors is that of all
+/// the matrices. They are of the unit of the function, as energies are, and equal these where only
+/// one λ has a part of degree l. Invariant under rotation. O(K⁴).
+[[nodiscard]] SHAPE3D_DESCRIPTORS_EXPORT Eigen::VectorXd gram_roots(
     const HshCoefficients& coefficients);
 
 /// The truncated series (5.6) at the voxel centres inside the ball, 0 outside. For two_sided its

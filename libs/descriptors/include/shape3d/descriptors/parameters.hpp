@@ -20,12 +20,24 @@ enum class Align {
 };
 
 /// Which numbers of the HSH coefficients are the vector.
-enum class HshInvariants { energies, gram };
+enum class HshInvariants {
+  energies,  ///< hsh_energies()
+  gram,      ///< gram_invariants()
+  roots      ///< gram_roots()
+};
+
+/// What the HSH coefficients are of.
+enum class HshSource {
+  voxels,  ///< The voxels.
+  surface  ///< The surface as a measure (hsh_of_points()), its points not further apart than half
+           ///< of a voxel edge; fill, sigma, quadrature and grid are not used.
+};
 
 /// `hsh`: hyperspherical harmonics (section 5.2).
 struct HshParameters {
   HshOptions transform;
   VoxelizeOptions voxels;
+  HshSource source = HshSource::voxels;
   HshInvariants invariants = HshInvariants::energies;
   bool unit = false;   ///< Divide the vector by its L2 norm.
   double power = 1.0;  ///< Then each number x becomes sign(x) |x|^power; 0.1 … 1.

@@ -19,6 +19,9 @@ enum class Fill {
   distance  ///< exp(−d² / 2σ²), d the distance from the centre of the voxel to the surface itself.
 };
 
+/// Where Gaussian fills end, in units of σ: exp(−8) = 3.4e-4.
+inline constexpr double kGaussianReach = 4.0;
+
 /// Settings of voxelize().
 struct VoxelizeOptions {
   int side = 64;  ///< Voxels along an axis, kMinSide … kMaxSide.
@@ -27,7 +30,7 @@ struct VoxelizeOptions {
   Scale scale = Scale::rms;
   double factor = 2.0;                ///< Radius of the ball in units of `scale`, > 0 and finite.
   double sigma = 2.8284271247461903;  ///< σ of gedt and distance in voxel edges (√8), ¼ … side. The
-                                      ///< result is 0 beyond 6σ, where it would be below 2e-8.
+                                      ///< result is 0 beyond kGaussianReach σ.
   int threads = 0;  ///< 0: all processors. The result is the same, byte for byte, for any number.
 };
 

@@ -26,8 +26,8 @@ struct CalibrationOptions {
   double scope_constant = 100.0;
   double max_scope =
       0.9;  ///< The scope is no wider, for there Λ ends at the class means; in (0, 1].
-  int coarse_samples = 9;  ///< Values of λ in the first pass, odd, at least 3.
-  int refinements = 4;     ///< Passes that halve the step around the best; at least 0.
+  int coarse_samples = 7;  ///< Values of λ in the first pass, odd, at least 3.
+  int refinements = 3;     ///< Passes that halve the step around the best; at least 0.
   int threads = 0;         ///< 0: all processors. The result does not depend on it.
   ProgressFunction progress;
 };

@@ -13,8 +13,8 @@ namespace shape3d::levelset {
 /// The κ of F_G = −εκ.
 enum class Curvature {
   mean,    ///< κ = κ1 + κ2: smooths everything, also vessels, which it shortens and cuts.
-  minimal  ///< κ = the smaller of κ1 and κ2: smooths surfaces but keeps tubes, whose one curvature
-           ///< is 0.
+  minimal  ///< κ = the one of κ1 and κ2 of smaller magnitude: smooths surfaces but keeps tubes,
+           ///< whose one curvature is 0.
 };
 
 /// What lies beyond the border of the volume.
@@ -27,16 +27,19 @@ enum class Border {
 /// Settings of evolve().
 struct EvolveOptions {
   int max_iterations = 1000;  ///< At least 1.
-  /// Stop when the mean displacement of the front per unit of time is less (mm over mm: 1 is the
-  /// speed of a front with F = 1). At least 0.
+  /// A tile is at rest when the mean displacement of the front in it, per unit of time, is at most
+  /// this (1: the speed of a front with F = 1), or when it has only gone to and fro over the last 8
+  /// redistancings. All tiles at rest: converged. At least 0.
   double tolerance = 0.01;
   /// Δt · (max |F| · √Σ h⁻² + 2 ε max k Σ h⁻²) of a step; in (0, 1).
   double cfl = 0.9;
   double curvature = 0.0;  ///< ε, mm; 0: no curvature term.
   Curvature curvature_kind = Curvature::minimal;
   Border border = Border::outside;
-  int redistance_interval = 4;  ///< Steps between reinitialisations of ψ; 1 … 8.
-  int threads = 0;              ///< 0: all processors. The result does not depend on it.
+  /// ψ is made a distance again when the front may have gone as far as in this many steps without
+  /// curvature; 1 … 8.
+  int redistance_interval = 4;
+  int threads = 0;  ///< 0: all processors. The result does not depend on it.
   ProgressFunction progress;
 };
 
@@ -57,7 +60,7 @@ struct FrontStatistics {
 /// Outcome of evolve().
 struct Evolution {
   /// ψ, mm: < 0 inside, 0 on the front, > 0 outside; a distance near the front, ±band elsewhere.
-  /// Its zeros are exact: nothing moves a node off the front.
+  /// A zero is a node that the front passes through exactly: none is moved to one side.
   Field psi;
   Status status = Status::iteration_limit;
   std::vector<FrontStatistics> iterations;

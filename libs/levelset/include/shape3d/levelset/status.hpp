@@ -13,9 +13,9 @@ enum class Status {
   front_vanished,   ///< No node is inside any more.
   front_filled,     ///< Every node is inside.
   constant_image,   ///< All samples (padding left out) are equal: there is nothing to separate.
-  too_few_bins,  ///< The histogram has fewer occupied bins than the mixture has parameters' sets.
-  one_sided,     ///< All classes are inside, or all are outside.
-  cancelled      ///< The progress callback returned false.
+  too_few_bins,     ///< The histogram has fewer occupied bins than the mixture has classes.
+  one_sided,        ///< All classes are inside, or all are outside.
+  cancelled         ///< The progress callback returned false.
 };
 
 /// One plain sentence part, for example "the front vanished: no voxel is inside".

@@ -31,6 +31,10 @@ struct SphericalMapOptions {
   /// Turns the mesh into its canonical pose, for example Pose::rotation of align(): the map is
   /// turned so that it lies as the posed mesh does. In SO(3).
   Eigen::Matrix3d pose = Eigen::Matrix3d::Identity();
+  /// Weight w ≥ 0 of w Σ A log²(area scale) in a second minimisation, which trades conformality for
+  /// coverage: long extrusions get more of the sphere. 0: none. The larger, the more even the areas
+  /// and the more distorted the angles: see conformal_distortion and distortion of the result.
+  double area_balance = 0;
   int max_iterations = 100;  ///< Of Ceres; at least 1.
   double function_tolerance =
       1e-4;  ///< Ceres stops when the cost changes by less, relatively; > 0.
@@ -68,6 +72,8 @@ struct SphericalMap {
   Distortion distortion;         ///< Of S.
   Distortion linear_distortion;  ///< Of the linear map that Ceres began with.
   MinimisationSummary minimisation;
+  Distortion conformal_distortion;  ///< Of the conformal map that balancing began with.
+  MinimisationSummary balancing;    ///< Used only with area_balance > 0.
   StageSeconds seconds;
   std::int64_t delaunay_flips = 0;  ///< Edges flipped to make the triangulation Delaunay.
   std::int64_t untangled_triangles =

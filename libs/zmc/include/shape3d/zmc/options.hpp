@@ -54,9 +54,9 @@ struct Options {
   ZeroFaces zero_faces = ZeroFaces::boundary;
   NonFinite non_finite = NonFinite::error;
   Border border = Border::open;
-  bool normals = false;    ///< Fill Surface::normals.
-  bool gradients = false;  ///< Fill Surface::gradients.
-  bool edges = false;      ///< Fill Surface::edges and Surface::edge_parameters.
+  bool normals = false;            ///< Fill Surface::normals.
+  bool gradients = false;          ///< Fill Surface::gradients.
+  bool edges = false;              ///< Fill Surface::edges and Surface::edge_parameters.
   bool count_nonmanifold = false;  ///< Fill Counts::nonmanifold_edges: sorts the zero edges.
   int threads = 0;  ///< 0: all processors. The result is the same, byte for byte, for any number.
   /// Surfaces of more vertices are not generated: Status::too_many_vertices, with the counts filled
