@@ -2,6 +2,7 @@
 #include <memory>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/LU>
 #include <shape3d/mapping/align.hpp>
 
 #include "common/error.hpp"

@@ -259,7 +259,7 @@ void run_map(const MapArguments& arguments, const Settings& settings) {
     const mapping::Pose pose = mapping::align(mesh.V, mesh.F);
     if (pose.ambiguous)
       warn(settings, arguments.mesh + ": the pose is ambiguous; 'shape3d align' says why");
-    report["pose"] = to_json(pose);
+    report["pose"] = apps::to_json(pose);
     mesh.V = mapping::posed(mesh.V, pose);  // and the map lies as the mesh does
     mesh.space.clear();
   }
