@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds the program and extracts the bone and the skin of a real CT.
+# Installs what is missing, builds the program, extracts the bone and the skin of a real CT and
+# segments its bone.
 #   scripts/demo.sh [FOLDER]     the folder receives meshes, pictures and reports; build/demo if none is given
 # SHAPE3D_UPDATE_IMAGES=1 also renews the picture of the README.
 set -euo pipefail
@@ -47,8 +48,13 @@ say "the same beside VTK's extractors, not capped"
 say "the contour in the middle slice"
 "$shape3d" contours skull.mhd --iso "$bone" --axis z --slice 54 -o slice.svg
 
+say "the bone found by its intensities and gradients, without an isovalue"
+"$shape3d" segment skull.mhd --classes 3 --inside 2 -o bone.nii.gz --mesh segmented.ply \
+  --contours z=54 segmented.svg --plot segmentation --json segment.json
+
 say "pictures"
 "$shape3d" render bone.ply --largest -o skull.png --size 800x800
+"$shape3d" render segmented.ply --largest -o segmented.png --size 800x800
 "$shape3d" render bone.ply skin.ply --largest --color bone --color skin --opacity 1 --opacity 0.3 \
   --view oblique -o head.png --size 800x800
 if [[ ${SHAPE3D_UPDATE_IMAGES:-0} == 1 ]]; then
@@ -56,4 +62,5 @@ if [[ ${SHAPE3D_UPDATE_IMAGES:-0} == 1 ]]; then
 fi
 
 say "done in $((SECONDS - started)) s after the build"
-echo "The pictures are $out/skull.png, $out/head.png and $out/slice.svg; the meshes bone.ply and skin.ply are beside them."
+echo "The pictures are $out/skull.png, $out/head.png, $out/segmented.png, $out/slice.svg and those in $out/segmentation;"
+echo "the meshes bone.ply, skin.ply and segmented.ply and the label map bone.nii.gz are beside them."

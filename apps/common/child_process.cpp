@@ -4,9 +4,11 @@
 #include <csignal>
 #include <cstring>
 #include <exception>
+#include <new>
 
 #include <fcntl.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,17 +40,27 @@ std::string read_all(int descriptor) {
   }
 }
 
-[[noreturn]] void run_child(const std::function<std::string()>& function, int descriptor) {
+[[noreturn]] void run_child(const std::function<std::string()>& function, std::uint64_t cpu_seconds,
+                            int descriptor) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  if (cpu_seconds > 0) {
+    const rlimit cpu{cpu_seconds, cpu_seconds};
+    setrlimit(RLIMIT_CPU, &cpu);
+  }
   // An interrupt cleans up in the parent; here it only ends the copy.
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+  for (const int number : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGILL}) std::signal(number, SIG_DFL);
   const int null = open("/dev/null", O_RDWR);
   dup2(null, STDOUT_FILENO);
   dup2(null, STDERR_FILENO);
   std::string result;
   try {
     result = "+" + function();
+  } catch (const std::bad_alloc&) {
+    result = "-there is not enough memory";
   } catch (const std::exception& error) {
     result = std::string("-") + error.what();
   }
@@ -58,7 +70,7 @@ std::string read_all(int descriptor) {
 
 }  // namespace
 
-ChildResult run_in_child(const std::function<std::string()>& function) {
+ChildResult run_in_child(const std::function<std::string()>& function, std::uint64_t cpu_seconds) {
   ChildResult result;
   int pipe_ends[2];
   if (pipe2(pipe_ends, O_CLOEXEC) != 0) {
@@ -68,7 +80,7 @@ ChildResult run_in_child(const std::function<std::string()>& function) {
   const pid_t child = fork();
   if (child == 0) {
     close(pipe_ends[0]);
-    run_child(function, pipe_ends[1]);
+    run_child(function, cpu_seconds, pipe_ends[1]);
   }
   close(pipe_ends[1]);
   if (child < 0) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -16,7 +17,9 @@ struct ChildResult {
 /// a library that aborts takes only the copy with it. What the copy prints is discarded.
 ///
 /// Only the calling thread exists in the copy: the function must not use thread pools started
-/// before.
-[[nodiscard]] ChildResult run_in_child(const std::function<std::string()>& function);
+/// before. The copy leaves no core file.
+/// @param cpu_seconds  of processor time after which it is ended; 0: no limit.
+[[nodiscard]] ChildResult run_in_child(const std::function<std::string()>& function,
+                                       std::uint64_t cpu_seconds = 0);
 
 }  // namespace shape3d::apps

@@ -81,7 +81,10 @@ class Walk {
       at_ = 132;
       if (!meta_group(uid)) return problem_;
     }
-    if (uid == kDeflated) return {};
+    if (uid == kDeflated) {
+      return "is a deflated data set (transfer syntax " + uid +
+             "); expected one that is not deflated";
+    }
     syntax.big_endian = uid == kExplicitBig;
     // Without a transfer syntax the first element tells.
     syntax.is_explicit =
@@ -176,17 +179,23 @@ class Walk {
     return true;
   }
 
-  // Data elements up to `end`, or in an item of no length up to its end tag. At the top level pixel
-  // data end the walk.
+  // Data elements up to `end`, or in an item of no length up to its end tag.
   bool elements(const Syntax& syntax, std::size_t end, bool until_tag, int depth) {
     while (at_ < end) {
       Element element;
       if (!next(syntax, end, element)) return false;
       if (until_tag && element.tag == kItemEnd) return true;
       if (depth == 0 && element.tag >> 16 == kPixelGroup && (element.tag & 0xffffU) != 0) {
-        if (element.length != kUndefined) return true;
-        // Decoders of compressed pixels read on behind them.
-        if (!fragments(syntax, element)) return false;
+        // Parsers read on behind pixel data, so that what is there must be data elements, too, or
+        // filling. Whether the pixels are all there is told by their number.
+        if (element.length == kUndefined) {
+          if (!fragments(syntax, element)) return false;
+        } else if (element.length > end - at_) {
+          return true;
+        } else {
+          at_ += element.length;
+        }
+        if (bytes_.find_first_not_of('\0', at_) == std::string_view::npos) return true;
         continue;
       }
       if (element.tag >> 16 == kItem >> 16) return fail(element, "is an item outside a sequence");

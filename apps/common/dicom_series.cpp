@@ -59,7 +59,6 @@ bool is_read(std::string_view transfer_syntax) {
   return false;
 }
 
-constexpr const char* kDeflated = "1.2.840.10008.1.2.1.99";
 constexpr unsigned int kEncapsulated = 0xffffffff;
 
 bool named_dicom(const std::filesystem::path& path) {
@@ -86,10 +85,6 @@ class Parser {
 
   // Why the data elements up to the pixels could not be parsed; empty when they could.
   [[nodiscard]] std::string header_error() const {
-    if (text(kTransferSyntax) == kDeflated) {
-      return "is a deflated data set (transfer syntax " + std::string(kDeflated) +
-             "); expected one that is not deflated";
-    }
     return has_pixels_ || error_.empty() ? std::string() : "cannot be read: " + error_;
   }
 

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -24,6 +25,7 @@ constexpr std::size_t kLongestMessage = 1000;
 // The child: exit status 0, or 1 with a message in `message`.
 [[noreturn]] void run_child(const std::function<void()>& work, std::uint64_t cpu_seconds,
                             std::byte* message) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
   const int sink = open("/dev/null", O_WRONLY);
   dup2(sink, STDOUT_FILENO);
   dup2(sink, STDERR_FILENO);
@@ -36,6 +38,10 @@ constexpr std::size_t kLongestMessage = 1000;
   try {
     work();
     _exit(0);
+  } catch (const std::bad_alloc&) {
+    std::strncpy(reinterpret_cast<char*>(message), "there is not enough memory",
+                 kLongestMessage - 1);
+    _exit(1);
   } catch (const std::exception& error) {
     std::strncpy(reinterpret_cast<char*>(message), error.what(), kLongestMessage - 1);
     _exit(1);

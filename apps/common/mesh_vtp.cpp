@@ -1,18 +1,13 @@
 #include <charconv>
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
-#include <vtkXMLPolyDataReader.h>
 
 #include "mesh_formats.hpp"
 #include "vtk_mesh.hpp"
-#include "vtk_messages.hpp"
+#include "vtp_polydata.hpp"
 
 namespace shape3d::apps::formats {
 namespace {
@@ -50,70 +45,64 @@ void check_counts(std::string_view bytes, const std::string& name) {
   }
 }
 
-std::vector<MeshArray> read_arrays(vtkDataSetAttributes* data, vtkIdType tuples) {
-  std::vector<MeshArray> arrays;
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
-    vtkDataArray* array = data->GetArray(i);
-    if (array == nullptr || array->GetName() == nullptr || array->GetNumberOfComponents() != 1 ||
-        array->GetNumberOfTuples() != tuples) {
-      continue;
-    }
-    MeshArray copy;
-    copy.name = array->GetName();
-    std::vector<double> values(static_cast<std::size_t>(tuples));
-    for (vtkIdType t = 0; t < tuples; ++t)
-      values[static_cast<std::size_t>(t)] = array->GetComponent(t, 0);
-    copy.values = std::move(values);
-    arrays.push_back(std::move(copy));
-  }
+// The arrays of one number for each of `count` elements.
+std::vector<MeshArray> arrays_of(std::vector<MeshArray> arrays, std::size_t count) {
+  arrays.erase(std::remove_if(arrays.begin(), arrays.end(),
+                              [&](const MeshArray& array) {
+                                return std::get<std::vector<double>>(array.values).size() != count;
+                              }),
+               arrays.end());
   return arrays;
 }
 
-void read_points(vtkPolyData* data, const std::string& name, Mesh& mesh) {
-  const vtkIdType count = data->GetNumberOfPoints();
-  mesh.V.resize(count, 3);
-  for (vtkIdType i = 0; i < count; ++i) {
-    data->GetPoint(i, mesh.V.data() + 3 * i);
+void read_points(const VtpPolyData& data, const std::string& name, Mesh& mesh) {
+  const std::size_t count = data.points.size() / 3;
+  if (count > static_cast<std::size_t>(kMaxCount)) {
+    throw FileError(name,
+                    "has " + std::to_string(count) + " vertices, expected at most 2147483647");
+  }
+  mesh.V = Eigen::Map<const Mesh::Points>(data.points.data(), static_cast<Eigen::Index>(count), 3);
+  for (Eigen::Index i = 0; i < mesh.V.rows(); ++i) {
     if (!mesh.V.row(i).allFinite()) {
       throw FileError(name, "expected finite coordinates of point " + std::to_string(i));
     }
   }
 }
 
-void read_faces(vtkPolyData* data, const std::string& name, MeshFile& file) {
-  vtkCellArray* polys = data->GetPolys();
-  const vtkIdType points = data->GetNumberOfPoints();
-  const vtkIdType cells = polys->GetNumberOfCells();
-  vtkDataArray* offsets = polys->GetOffsetsArray();
-  const vtkIdType ids = polys->GetNumberOfConnectivityIds();
+void read_faces(VtpPolyData& data, const std::string& name, MeshFile& file) {
+  const std::int64_t points = file.mesh.V.rows();
+  const std::size_t cells = data.offsets.empty() ? 0 : data.offsets.size() - 1;
+  const auto ids = static_cast<std::int64_t>(data.ids.size());
   std::vector<std::int32_t> indices;
   FaceCollector collector(indices);
-  for (vtkIdType cell = 0; cell < cells; ++cell) {
-    const auto begin = static_cast<vtkIdType>(offsets->GetComponent(cell, 0));
-    const auto end = static_cast<vtkIdType>(offsets->GetComponent(cell + 1, 0));
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    const std::int64_t begin = data.offsets[cell], end = data.offsets[cell + 1];
     if (begin < 0 || end < begin || end > ids) {
       throw FileError(name, "the offsets of polygon " + std::to_string(cell) + " are " +
                                 std::to_string(begin) + " and " + std::to_string(end) +
                                 ", expected to rise and to stay within " + std::to_string(ids));
     }
-    vtkIdType size = 0;
-    const vtkIdType* corners = nullptr;
-    polys->GetCellAtId(cell, size, corners);
-    for (vtkIdType c = 0; c < size; ++c) {
-      if (corners[c] < 0 || corners[c] >= points) {
-        throw FileError(name,
-                        "polygon " + std::to_string(cell) + ": expected a point index from 0 to " +
-                            std::to_string(points - 1) + ", found " + std::to_string(corners[c]));
+    for (std::int64_t c = begin; c < end; ++c) {
+      const std::int64_t id = data.ids[static_cast<std::size_t>(c)];
+      if (id < 0 || id >= points) {
+        throw FileError(name, "polygon " + std::to_string(cell) +
+                                  ": expected a point index from 0 to " +
+                                  std::to_string(points - 1) + ", found " + std::to_string(id));
       }
     }
-    collector.add(corners, static_cast<std::size_t>(size));
+    collector.add(data.ids.data() + begin, static_cast<std::size_t>(end - begin));
+  }
+  if (indices.size() / 3 > static_cast<std::size_t>(kMaxCount)) {
+    throw FileError(name, "has " + std::to_string(indices.size() / 3) +
+                              " triangles, expected at most 2147483647");
   }
   collector.report(file);
   file.mesh.F = Eigen::Map<const Mesh::Triangles>(indices.data(),
                                                   static_cast<Eigen::Index>(indices.size() / 3), 3);
   // A polygon that became several triangles, or none, would shift the cell arrays.
-  if (file.mesh.F.rows() == cells && file.polygons == 0 && data->GetNumberOfCells() == cells) {
-    file.mesh.triangle_arrays = read_arrays(data->GetCellData(), cells);
+  if (static_cast<std::size_t>(file.mesh.F.rows()) == cells && file.polygons == 0 &&
+      data.strips + data.lines_and_points == 0) {
+    file.mesh.triangle_arrays = arrays_of(std::move(data.cell_arrays), cells);
   }
 }
 
@@ -127,34 +116,25 @@ MeshFile parse_vtp(std::string_view bytes, const std::string& name) {
                     "expected a VTK XML file of type PolyData (<VTKFile type=\"PolyData\" …>)");
   }
   check_counts(bytes, name);
-  const VtkMessages messages;
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->ReadFromInputStringOn();
-  reader->SetInputString(std::string(bytes));
-  reader->Update();
-  if (const std::string error = messages.first_error();
-      !error.empty() || reader->GetErrorCode() != 0) {
-    throw FileError(
-        name, "is not a whole VTK PolyData file: " + (error.empty() ? "unknown error" : error));
-  }
-  vtkPolyData* data = reader->GetOutput();
+  VtpPolyData data = read_vtp(bytes, name);
   MeshFile file;
   file.format = MeshFormat::vtp;
   file.encoding = "VTK XML";
   read_points(data, name, file.mesh);
   read_faces(data, name, file);
-  file.mesh.vertex_arrays = read_arrays(data->GetPointData(), data->GetNumberOfPoints());
-  if (auto* space = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("SPACE"));
-      space != nullptr && space->GetNumberOfValues() > 0) {
-    file.mesh.comments.push_back("SPACE=" + std::string(space->GetValue(0)));
+  file.mesh.vertex_arrays =
+      arrays_of(std::move(data.point_arrays), static_cast<std::size_t>(file.mesh.V.rows()));
+  if (!data.space.empty()) {
+    file.mesh.comments.push_back("SPACE=" + data.space);
     find_space(file.mesh);
   }
-  if (const vtkIdType strips = data->GetNumberOfStrips(); strips > 0) {
+  if (data.strips > 0) {
     throw FileError(name,
-                    "holds " + std::to_string(strips) + " triangle strips, expected polygons");
+                    "holds " + std::to_string(data.strips) + " triangle strips, expected polygons");
   }
-  if (const vtkIdType others = data->GetNumberOfLines() + data->GetNumberOfVerts(); others > 0) {
-    file.warnings.push_back(std::to_string(others) + " lines and points were not read");
+  if (data.lines_and_points > 0) {
+    file.warnings.push_back(std::to_string(data.lines_and_points) +
+                            " lines and points were not read");
   }
   return file;
 }

@@ -141,7 +141,8 @@ std::vector<Polyline> join_edges(const zmc::Contour& contour) { return EdgeJoine
 
 SlicePlane::SlicePlane(const zmc::VolumeView& volume, int axis)
     : to_lattice_((volume.direction * volume.spacing.asDiagonal()).inverse()),
-      origin_(volume.origin) {
+      origin_(volume.origin),
+      axis_(axis) {
   axes_ = axis == 0   ? std::array<int, 2>{1, 2}
           : axis == 1 ? std::array<int, 2>{0, 2}
                       : std::array<int, 2>{0, 1};
@@ -165,6 +166,14 @@ std::array<double, 2> SlicePlane::project(const Eigen::Vector3d& world) const {
     p[i] = lattice[axes_[i]] * spacing_[i];
     if (flipped_[i]) p[i] = size_[i] - p[i];
   }
+  return p;
+}
+
+Eigen::Vector3d SlicePlane::lattice(const std::array<double, 2>& place, std::int64_t slice) const {
+  Eigen::Vector3d p;
+  p[axis_] = static_cast<double>(slice);
+  for (std::size_t i = 0; i < 2; ++i)
+    p[axes_[i]] = (flipped_[i] ? size_[i] - place[i] : place[i]) / spacing_[i];
   return p;
 }
 

@@ -36,10 +36,14 @@ class SlicePlane {
   [[nodiscard]] std::array<double, 2> size() const { return size_; }
   /// Right and down from the corner.
   [[nodiscard]] std::array<double, 2> project(const Eigen::Vector3d& world) const;
+  /// Lattice coordinates of a place on the slice: the inverse of project() there.
+  [[nodiscard]] Eigen::Vector3d lattice(const std::array<double, 2>& place,
+                                        std::int64_t slice) const;
 
  private:
   Eigen::Matrix3d to_lattice_;
   Eigen::Vector3d origin_;
+  int axis_ = 2;
   std::array<int, 2> axes_{};
   std::array<bool, 2> flipped_{};
   std::array<double, 2> spacing_{}, size_{};

@@ -60,9 +60,10 @@ PrivateDisplay::PrivateDisplay() {
   if (pipe2(pipe_ends, O_CLOEXEC) != 0)
     throw PictureError(std::string("no pipe to Xvfb: ") + std::strerror(errno));
   const std::string descriptor = std::to_string(pipe_ends[1]);
-  const char* arguments[] = {"Xvfb",      "-displayfd", descriptor.c_str(),
-                             "-screen",   "0",          "1280x1024x24",
-                             "-nolisten", "tcp",        nullptr};
+  // -noreset: else the server restarts when a window was the only one, and the next finds none.
+  const char* arguments[] = {"Xvfb",     "-displayfd",   descriptor.c_str(), "-screen",
+                             "0",        "1280x1024x24", "-nolisten",        "tcp",
+                             "-noreset", nullptr};
   const pid_t parent = getpid();
   server_ = fork();
   if (server_ == 0) {

@@ -140,13 +140,16 @@ class Extraction {
     } catch (const std::invalid_argument& error) {
       fail_for(arguments_.volume.path, error);
     } catch (const std::bad_alloc&) {
-      // told below
+      throw FileError(arguments_.volume.path, "the surface of isovalue " + shortest(item.isovalue) +
+                                                  " needs more memory than there is; " +
+                                                  bytes_to_text(available_memory()) +
+                                                  " are available");
     }
     const auto needed = static_cast<std::uint64_t>(limit) * kBytesPerVertex;
     throw FileError(arguments_.volume.path,
                     "the surface of isovalue " + shortest(item.isovalue) + " has more than " +
                         grouped(limit) + " vertices and needs more than " + bytes_to_text(needed) +
-                        "; " + bytes_to_text(memory) + " are available");
+                        " of memory; " + bytes_to_text(memory) + " are available");
   }
 
   void write(Extracted& item, const std::vector<std::unique_ptr<OutputFile>>& files,

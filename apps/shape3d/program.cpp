@@ -11,6 +11,7 @@
 #include "common/interrupt.hpp"
 #include "common/memory_limit.hpp"
 #include "common/text.hpp"
+#include "mesh_commands.hpp"
 
 namespace shape3d::apps {
 namespace {
@@ -73,6 +74,7 @@ int run_program(int argc, char** argv) {
       "  shape3d extract scan/ --iso 226 -o bone.ply\n"
       "  shape3d check bone.ply\n"
       "  shape3d render bone.ply -o bone.png\n"
+      "  shape3d map spot.off -o sphere.off         a sphere that keeps angles\n"
       "'shape3d COMMAND --help' explains a command.");
   add_info(app, settings);
   add_extract(app, settings);
@@ -80,6 +82,13 @@ int run_program(int argc, char** argv) {
   add_check(app, settings);
   add_render(app, settings);
   add_compare(app, settings);
+  add_describe(app, settings);
+  add_map(app, settings);
+  add_align(app, settings);
+  add_repair(app, settings);
+  add_simplify(app, settings);
+  add_wrap(app, settings);
+  add_segment(app, settings);
   for (CLI::App* command : commands_of(app)) add_shared_options(*command, settings);
   if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
     return fail(std::string("unknown command '") + argv[1] + "', expected " + command_names(app),

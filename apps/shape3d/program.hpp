@@ -32,6 +32,8 @@ void add_contours(CLI::App& app, Settings& settings);
 void add_check(CLI::App& app, Settings& settings);
 void add_render(CLI::App& app, Settings& settings);
 void add_compare(CLI::App& app, Settings& settings);
+void add_describe(CLI::App& app, Settings& settings);
+void add_segment(CLI::App& app, Settings& settings);
 
 /// Prints "shape3d: warning: SENTENCE" on standard error unless settings.quiet.
 void warn(const Settings& settings, const std::string& sentence);

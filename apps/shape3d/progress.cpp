@@ -1,6 +1,7 @@
 #include "progress.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -35,12 +36,13 @@ void Progress::stage(std::string name) {
   stage_watch_.lap();
 }
 
-void Progress::update(double share) {
+void Progress::update(double share, double left) {
   const double passed = stage_watch_.seconds();
   if (!active_ || passed < kPatience || (shown_ && shown_watch_.seconds() < kInterval)) return;
   std::string line =
       name_ + ": " + std::to_string(static_cast<int>(100 * share)) + " %, " + duration(passed);
-  if (share > 0.02) line += ", about " + duration(passed * (1 - share) / share) + " left";
+  if (std::isnan(left) && share > 0.02) left = passed * (1 - share) / share;
+  if (!std::isnan(left)) line += ", about " + duration(left) + " left";
   show(line);
 }
 

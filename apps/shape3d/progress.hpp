@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "program.hpp"
@@ -20,7 +21,8 @@ class Progress {
   /// Begins a stage: "reading skull.mhd".
   void stage(std::string name);
   /// @param share  Of the stage, 0 … 1.
-  void update(double share);
+  /// @param left   Seconds still to go; NaN: by the share that is done.
+  void update(double share, double left = std::numeric_limits<double>::quiet_NaN());
   /// Removes the line, so that a report can be printed.
   void clear();
 

@@ -154,6 +154,23 @@ TEST_CASE("data elements that no parser should see are named", "[damaged]") {
                      10);
   CHECK_THAT(check_dicom_elements(bytes, unknown),
              Catch::Contains("is no group length of type UL"));
+  // Behind pixel data: zeros, another element, what is none, and nothing where they are cut off.
+  const std::string pixels(
+      "\xe0\x7f\x10\x00"
+      "OW\0\0\x02\0\0\0ab",
+      14);
+  CHECK(check_dicom_elements(date + pixels, unknown).empty());
+  CHECK(check_dicom_elements(date + pixels + std::string(13, '\0'), unknown).empty());
+  const std::string padding(
+      "\xfc\xff\xfc\xff"
+      "OB\0\0\x02\0\0\0ab",
+      14);
+  CHECK(check_dicom_elements(date + pixels + padding, unknown).empty());
+  CHECK(check_dicom_elements(date + pixels.substr(0, 13), unknown).empty());
+  CHECK_THAT(check_dicom_elements(date + pixels + std::string(20, '\xff'), unknown),
+             Catch::Contains("(ffff,ffff) at byte 30"));
+  CHECK_THAT(check_dicom_elements(date + pixels + padding.substr(0, 9), unknown),
+             Catch::Contains("is cut off"));
   // Sequences in sequences, of no length and with no end.
   const std::string open(
       "\x08\x00\x15\x11"

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -77,6 +78,42 @@ inline Mesh torus(int u_count, int v_count, double large = 3.0, double small = 1
     for (int v = 0; v < v_count; ++v) {
       triangles.push_back({id(u, v), id(u + 1, v), id(u + 1, v + 1)});
       triangles.push_back({id(u, v), id(u + 1, v + 1), id(u, v + 1)});
+    }
+  }
+  return make_mesh(points, triangles);
+}
+
+/// An octahedron of 8n² triangles at radius 1 + a few waves: closed, of genus 0, star-shaped,
+/// without symmetry.
+inline Mesh bumpy_ball(int n) {
+  std::map<std::array<int, 3>, std::int32_t> ids;  // by n times the place on the octahedron
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  const auto id = [&](const std::array<int, 3>& place) {
+    const auto [entry, added] = ids.emplace(place, static_cast<std::int32_t>(points.size()));
+    if (added) {
+      const double length = std::hypot(place[0], place[1], place[2]);
+      const double x = place[0] / length, y = place[1] / length, z = place[2] / length;
+      const double radius = 1 + 0.25 * std::sin(2 * x + y) + 0.2 * x * z + 0.15 * y * z * z;
+      points.push_back({1.5 * radius * x, radius * y, 0.7 * radius * z});
+    }
+    return entry->second;
+  };
+  for (int octant = 0; octant < 8; ++octant) {
+    const int sx = octant & 1 ? -1 : 1, sy = octant & 2 ? -1 : 1, sz = octant & 4 ? -1 : 1;
+    const auto corner = [&](int i, int j) { return id({sx * (n - i - j), sy * i, sz * j}); };
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; i + j < n; ++j) {
+        std::vector<std::array<std::int32_t, 3>> added{
+            {corner(i, j), corner(i + 1, j), corner(i, j + 1)}};
+        if (i + j + 1 < n) {
+          added.push_back({corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
+        }
+        for (std::array<std::int32_t, 3> triangle : added) {
+          if (sx * sy * sz < 0) std::swap(triangle[1], triangle[2]);
+          triangles.push_back(triangle);
+        }
+      }
     }
   }
   return make_mesh(points, triangles);

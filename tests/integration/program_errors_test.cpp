@@ -1,3 +1,4 @@
+#include <cmath>
 #include <fstream>
 
 #include <unistd.h>
@@ -189,7 +190,15 @@ TEST_CASE("output that cannot be written: status 1", "[program][error]") {
              "cannot be written");
 }
 
+// The address sanitizer itself takes terabytes of address space.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kAddressSpaceCanBeLimited = false;
+#else
+constexpr bool kAddressSpaceCanBeLimited = true;
+#endif
+
 TEST_CASE("more memory than there is: status 1, and how much is needed", "[program][error]") {
+  if (!kAddressSpaceCanBeLimited) return;
   BadInput bad;
   // A sparse file of 64 GiB, as large as its header says.
   {
@@ -203,6 +212,54 @@ TEST_CASE("more memory than there is: status 1, and how much is needed", "[progr
   bad.options().memory_limit = std::uint64_t{8} << 30;
   bad.expect(1, {"extract", "large.mhd", "--iso", "0", "-o", "a.ply"},
              "large.mhd: needs 64.0 GiB of memory");
+}
+
+TEST_CASE("memory that ends anywhere in a run: status 1 and a sentence, or a whole surface",
+          "[program][error][memory]") {
+  if (!kAddressSpaceCanBeLimited) return;
+  const TemporaryFolder folder;
+  const int n = 90;
+  // Waves: a surface through most cells, so that each stage takes memory.
+  make_volume(folder / "waves.mhd", {n, n, n}, [](int i, int j, int k) {
+    return static_cast<float>(std::sin(0.9 * i) + std::sin(0.8 * j) + std::sin(0.7 * k));
+  });
+  const auto run_with = [&](std::uint64_t limit) {
+    RunOptions options;
+    options.folder = folder.path();
+    options.memory_limit = limit;
+    return run_shape3d({"extract", "waves.mhd", "--iso", "0.1", "--threads", "2", "-o", "a.ply"},
+                       options);
+  };
+  // The least limit under which the program starts at all.
+  constexpr std::uint64_t kStep = std::uint64_t{1} << 20;
+  const auto starts_with = [&](std::uint64_t limit) {
+    RunOptions options;
+    options.memory_limit = limit;
+    return run_shape3d({"--version"}, options).status == 0;
+  };
+  std::uint64_t low = kStep, high = std::uint64_t{16} << 30;
+  REQUIRE(starts_with(high));
+  while (high - low > kStep) {
+    const std::uint64_t middle = low + (high - low) / 2;
+    (starts_with(middle) ? high : low) = middle;
+  }
+  int refused = 0, whole = 0;
+  for (std::uint64_t limit = high; whole < 3; limit += 5 * kStep) {
+    REQUIRE(limit < std::uint64_t{32} << 30);
+    const Run run = run_with(limit);
+    INFO((limit - high) / kStep << " MiB more than the program takes to start; " << run.err);
+    if (run.status == 0) {
+      ++whole;
+      CHECK(fs::exists(folder / "a.ply"));
+      fs::remove(folder / "a.ply");
+      continue;
+    }
+    ++refused;
+    REQUIRE(run.status == 1);
+    CHECK_THAT(run.err, Catch::Contains("memory"));
+    CHECK(listing(folder.path()).size() == 2);  // the volume: nothing half written
+  }
+  CHECK(refused > 3);
 }
 
 }  // namespace

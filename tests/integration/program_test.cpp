@@ -59,7 +59,8 @@ TEST_CASE("help and version", "[program]") {
   const Run version = run_shape3d({"--version"});
   CHECK(version.status == 0);
   CHECK_THAT(version.out, Catch::Matchers::StartsWith("shape3d 0."));
-  for (const char* command : {"info", "extract", "contours", "check", "render", "compare"}) {
+  for (const char* command : {"info", "extract", "contours", "check", "render", "compare", "segment",
+                              "describe", "map", "align", "repair", "simplify", "wrap"}) {
     INFO(command);
     const Run help = run_shape3d({command, "--help"});
     CHECK(help.status == 0);
@@ -70,7 +71,8 @@ TEST_CASE("help and version", "[program]") {
   CHECK_THAT(run_shape3d({"--help"}).out, Contains("extract") && Contains("Examples:"));
 }
 
-TEST_CASE("the README shows the program that is built, and commands that parse", "[program][readme]") {
+TEST_CASE("the README shows the program that is built, and commands that parse",
+          "[program][readme]") {
   const fs::path source = SHAPE3D_SOURCE_FOLDER;
   const std::string readme = slurp(source / "README.md");
   CHECK_THAT(readme, Contains("```cpp\n" + slurp(source / "docs/examples/ball.cpp") + "```"));

@@ -187,6 +187,16 @@ TEST_CASE("only DICOM has series", "[volume]") {
   CHECK_THAT(error_of(folder / "x.nrrd", options), Catch::Contains("is NRRD; a series (\"2\")"));
 }
 
+TEST_CASE("a file name out of a header does not speak to the terminal", "[volume]") {
+  const TemporaryFolder folder;
+  write_bytes(
+      folder / "x.mhd",
+      "NDims = 3\nDimSize = 2 2 2\nElementType = MET_SHORT\nElementDataFile = a\x1b[31mb\x7f\n");
+  const std::string error = error_of(folder / "x.mhd");
+  CHECK_THAT(error, Catch::Contains("a?[31mb?: no such file"));
+  CHECK(error.find('\x1b') == std::string::npos);
+}
+
 TEST_CASE("more memory than there is: the error says how much is needed and how much there is",
           "[volume]") {
   const TemporaryFolder folder;

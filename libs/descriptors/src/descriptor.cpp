@@ -37,6 +37,7 @@ struct Descriptor::State {
   Eigen::Index length = 0;
   std::unique_ptr<const HshTransform> hsh;
   std::unique_ptr<const ConcentricSpheres> csm;
+  std::unique_ptr<const ShTransform> sh;
 
   explicit State(detail::Description given) : description(std::move(given)) {
     text = std::string(detail::kind_of(description.parameters));
@@ -78,7 +79,10 @@ struct Descriptor::State {
     return p.length;
   }
 
-  static Eigen::Index prepare(const SphericalParameters& p) { return detail::length(p); }
+  Eigen::Index prepare(const SphericalParameters& p) {
+    sh = std::make_unique<const ShTransform>(detail::prepare(p));
+    return detail::length(p);
+  }
 
   // The vector of solid space, from V and F.
   Eigen::VectorXd compute(const HshParameters& p, const Eigen::Ref<const Points>& V,
@@ -209,7 +213,7 @@ Eigen::VectorXd Descriptor::compute(const Eigen::Ref<const Points>& V,
                                     const Eigen::Ref<const Triangles>& F,
                                     const Eigen::Ref<const Points>& S, int threads) const {
   if (const auto* spherical = std::get_if<SphericalParameters>(&parameters())) {
-    return detail::describe(*spherical, V, F, S, detail::resolve_threads(threads));
+    return detail::describe(*spherical, *state_->sh, V, F, S, detail::resolve_threads(threads));
   }
   return compute(V, F, threads);
 }

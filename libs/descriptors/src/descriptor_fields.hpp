@@ -52,6 +52,19 @@ struct EnumNames<CsmVariant> {
   static constexpr std::array<std::string_view, 2> names{"shells", "kazhdan"};
 };
 
+template <>
+struct EnumNames<SphericalForm> {
+  static constexpr std::array<std::string_view, 3> names{"amplitudes", "norms", "roots"};
+};
+template <>
+struct EnumNames<ImageSampling> {
+  static constexpr std::array<std::string_view, 2> names{"point", "area"};
+};
+template <>
+struct EnumNames<ShRoute> {
+  static constexpr std::array<std::string_view, 3> names{"quadrature", "fft", "svd"};
+};
+
 template <class Options, class Visitor>
 void visit_voxels(Options& options, Visitor&& visit) {
   visit("voxels", options.side);
@@ -111,6 +124,10 @@ template <class Visitor>
 void visit_fields(SphericalParameters& p, Visitor&& visit) {
   visit("K", p.K);
   visit("size", p.size);
+  visit("form", p.form);
+  visit("components", p.components);
+  visit("sampling", p.sampling);
+  visit("route", p.route);
 }
 
 }  // namespace shape3d::descriptors::detail

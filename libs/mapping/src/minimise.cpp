@@ -230,7 +230,9 @@ bool minimise(const ConstPoints& V, const ConstTriangles& F, const Twins& twins,
   Ending ending = Ending::converged;
   const auto minimised = [&](const std::vector<double>& epsilon) {
     ceres::Solver::Summary outcome;
-    ending = run(shapes, epsilon, F, settings, S, outcome);
+    MinimiseSettings left = settings;
+    left.max_iterations = std::max(1, settings.max_iterations - summary.iterations);
+    ending = run(shapes, epsilon, F, left, S, outcome);
     summary.iterations += iteration_count(outcome);
     summary.termination = ceres::TerminationTypeToString(outcome.termination_type);
     summary.message = outcome.message;

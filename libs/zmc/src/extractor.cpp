@@ -94,6 +94,17 @@ void reset(Surface<Real, Index>& surface) {
   surface.timings = Timings{};
 }
 
+/// Empties surfaces at the end of its scope unless told that they are done.
+template <class Real, class Index>
+struct EmptyOnException {
+  Surface<Real, Index>* surfaces;
+  std::size_t count;
+  bool done = false;
+  ~EmptyOnException() {
+    for (std::size_t n = 0; !done && n < count; ++n) reset(surfaces[n]);
+  }
+};
+
 }  // namespace
 
 struct Extractor::Workspace {
@@ -110,17 +121,19 @@ Status Extractor::extract(const VolumeView& view, double isovalue, const Options
                           Surface<Real, Index>& surface) {
   detail::check_arguments(view, isovalue, options);
   reset(surface);
+  EmptyOnException<Real, Index> guard{&surface, 1};
   auto clock = Clock::now();
   if (workspace_->jobs.empty()) workspace_->jobs.resize(1);
   Job& job = workspace_->jobs[0];
   constexpr double kClassified = 0.2;
-  if (!detail::classify(
-          view, {{isovalue, &job.lattice}}, options,
-          detail::layer_loop(options, detail::sample_count(view), 0.0, kClassified))) {
-    return Status::cancelled;
+  Status status = Status::cancelled;
+  if (detail::classify(view, {{isovalue, &job.lattice}}, options,
+                       detail::layer_loop(options, detail::sample_count(view), 0.0, kClassified))) {
+    surface.timings.classify = seconds_since(clock);
+    status = build_surface(view, isovalue, options, kClassified, 1.0, job, surface);
   }
-  surface.timings.classify = seconds_since(clock);
-  return build_surface(view, isovalue, options, kClassified, 1.0, job, surface);
+  guard.done = true;
+  return status;
 }
 
 template <class Real, class Index>
@@ -131,6 +144,7 @@ std::vector<Status> Extractor::extract(const VolumeView& view, const std::vector
   for (const double isovalue : isovalues) detail::check_arguments(view, isovalue, options);
   surfaces.resize(isovalues.size());
   for (auto& surface : surfaces) reset(surface);
+  EmptyOnException<Real, Index> guard{surfaces.data(), surfaces.size()};
   auto clock = Clock::now();
   auto& jobs = workspace_->jobs;
   if (jobs.size() < isovalues.size()) jobs.resize(isovalues.size());
@@ -139,9 +153,12 @@ std::vector<Status> Extractor::extract(const VolumeView& view, const std::vector
     targets.push_back({isovalues[n], &jobs[n].lattice});
   constexpr double kClassified = 0.1;
   std::vector<Status> statuses(isovalues.size(), Status::cancelled);
-  if (!detail::classify(view, targets, options,
-                        detail::layer_loop(options, detail::sample_count(view), 0.0, kClassified)))
+  if (!detail::classify(
+          view, targets, options,
+          detail::layer_loop(options, detail::sample_count(view), 0.0, kClassified))) {
+    guard.done = true;
     return statuses;
+  }
   surfaces[0].timings.classify = seconds_since(clock);
   const double share = (1.0 - kClassified) / static_cast<double>(isovalues.size());
   for (std::size_t n = 0; n < isovalues.size(); ++n) {
@@ -150,6 +167,7 @@ std::vector<Status> Extractor::extract(const VolumeView& view, const std::vector
         build_surface(view, isovalues[n], options, from, from + share, jobs[n], surfaces[n]);
     if (statuses[n] == Status::cancelled) break;
   }
+  guard.done = true;
   return statuses;
 }
 

@@ -47,7 +47,12 @@ void parallel_ranges(std::int64_t count, std::int64_t grain, int threads,
     }
   };
   std::vector<std::thread> team;
-  for (int t = 1; t < threads; ++t) team.emplace_back(work);
+  try {
+    team.reserve(static_cast<std::size_t>(threads - 1));
+    for (int t = 1; t < threads; ++t) team.emplace_back(work);
+  } catch (const std::exception&) {
+    // Memory or threads run short: those that are there do all the work.
+  }
   work();
   for (std::thread& member : team) member.join();
   if (failure) std::rethrow_exception(failure);

@@ -62,13 +62,14 @@ class Window {
 };
 
 /// A slab owns the vertices that begin in its planes and the cells above them; it sees one plane
-/// below and two above.
+/// below and two above. Planes are those of the lattice, which has one more on every side of the
+/// samples when the border is capped.
 struct Slab {
   std::int64_t first, last;
 };
 
-std::vector<Slab> slabs_of(const PlaneSource& source, std::int64_t planes) {
-  const std::int64_t nz = source.dims[2];
+/// @param nz  Planes of the lattice.
+std::vector<Slab> slabs_of(const PlaneSource& source, std::int64_t nz, std::int64_t planes) {
   if (planes == 0) {
     constexpr std::int64_t kBytes = std::int64_t{64} << 20;
     const auto plane_bytes =
@@ -110,9 +111,11 @@ class Streamer {
         isovalue_(isovalue),
         options_(options),
         quiet_(options),
-        slabs_(slabs_of(source, planes)),
+        margin_(options.border == Border::capped ? 1 : 0),
+        planes_(source.dims[2] + 2 * margin_),
+        slabs_(slabs_of(source, planes_, planes)),
         window_(source),
-        sparse_(source.dims[0], source.dims[1]) {
+        sparse_(source.dims[0] + 2 * margin_, source.dims[1] + 2 * margin_) {
     quiet_.progress = nullptr;
   }
 
@@ -122,7 +125,7 @@ class Streamer {
     if (twice) {
       for (std::size_t s = 0; s < slabs_.size(); ++s) {
         load(slabs_[s]);
-        const detail::AnyMagnitudeReader magnitude(view_, isovalue_, false);
+        const detail::AnyMagnitudeReader magnitude(view_, isovalue_, margin_ != 0);
         const detail::LatticeCells cells(lattice_, magnitude, options_.ties);
         sparse_.scan(cells, window_.first(), slabs_[s].first - window_.first(),
                      slabs_[s].last - window_.first());
@@ -155,9 +158,13 @@ class Streamer {
   }
 
   /// Samples and signs of a slab and the planes around it.
+  ///
+  /// With a capped border the lattice of a window has imaginary planes below and above its samples,
+  /// also where the volume goes on: the window is so large that they lie outside what the slab
+  /// sees. Plane 0 of the window's lattice is plane window_.first() of the whole in either case.
   void load(const Slab& slab) {
-    window_.move_to(std::max<std::int64_t>(0, slab.first - 1),
-                    std::min(source_.dims[2], slab.last + 2));
+    window_.move_to(std::max<std::int64_t>(0, slab.first - 1 - margin_),
+                    std::min(source_.dims[2], slab.last + 2 - margin_));
     view_ = window_.view();
     detail::classify(view_, {{isovalue_, &lattice_}}, quiet_,
                      detail::layer_loop(quiet_, detail::sample_count(view_), 0.0, 1.0),
@@ -165,7 +172,7 @@ class Streamer {
   }
 
   Status emit(const Slab& slab, bool regions_known, std::int64_t delivered, Counts& total) {
-    const detail::AnyMagnitudeReader magnitude(view_, isovalue_, false);
+    const detail::AnyMagnitudeReader magnitude(view_, isovalue_, margin_ != 0);
     const detail::LatticeCells cells(lattice_, magnitude, options_.ties);
     const detail::Plan::Part part{slab.first - window_.first(), slab.last - window_.first()};
     if (regions_known) {
@@ -175,7 +182,7 @@ class Streamer {
       const auto mark = [&](const detail::CellPlace&) { at_seam = true; };
       if (slab.first > 0)
         detail::for_each_all_zero_cell(lattice_, part.first - 1, part.first + 1, mark);
-      if (slab.last < source_.dims[2]) {
+      if (slab.last < planes_) {
         detail::for_each_all_zero_cell(lattice_, part.last - 1, part.last + 1, mark);
       }
       if (at_seam) return Status::zero_region_at_seam;
@@ -197,7 +204,7 @@ class Streamer {
     resize(surface_.gradients, plan_.vertices, options_.gradients);
     resize(surface_.normals, plan_.vertices, options_.normals);
     resize(surface_.indices, surface_.first_closing + plan_.counts.closing_triangles, true);
-    const detail::Geometry geometry(view_, false, window_.first());
+    const detail::Geometry geometry(view_, margin_ != 0, window_.first());
     detail::generate(view_, isovalue_, quiet_, geometry, cells, plan_, loop, surface_);
     return Status::ok;
   }
@@ -212,6 +219,8 @@ class Streamer {
   double isovalue_;
   const Options& options_;
   Options quiet_;
+  std::int64_t margin_;  ///< Planes of the lattice outside the samples, on either side.
+  std::int64_t planes_;  ///< Of the lattice.
   std::vector<Slab> slabs_;
   Window window_;
   VolumeView view_;
@@ -238,9 +247,6 @@ Status stream(const PlaneSource& source, double isovalue, const Options& options
   whole.origin = source.origin;
   whole.direction = source.direction;
   detail::check_arguments(whole, isovalue, options);
-  if (options.border == Border::capped) {
-    throw std::invalid_argument("options.border: stream() needs Border::open, got capped");
-  }
   if (options.edges) {
     throw std::invalid_argument("options.edges: stream() does not say on which edges vertices lie");
   }

@@ -22,7 +22,8 @@ namespace shape3d::zmc {
 /// @param isovalue  Any finite value, representable in the sample type or not.
 /// @param surface   Overwritten; its storage is reused. No triangle repeats a vertex, none occurs
 /// twice, every
-///                  vertex is used. On a status other than ok it has no triangles and no vertices.
+///                  vertex is used. On a status other than ok, and after std::bad_alloc, it has
+///                  no triangles and no vertices.
 /// @return          Status::empty for a volume that the isovalue does not divide.
 /// @throws std::invalid_argument  validate(view) fails; the isovalue is not finite; options.threads
 /// or

@@ -48,9 +48,14 @@ struct StreamOptions {
 /// eight zeros in one of the two layers at its seam.
 ///
 /// @param counts  Totals over all slabs; may be null. options.max_vertices is a limit on the total.
-/// @throws std::invalid_argument  as extract() (a bad source is named by the field); options.border
-///         is capped or options.edges is set; source.read is empty; planes_per_slab is negative.
-/// Memory: planes_per_slab + 3 planes of samples and signs, and the surface of a slab.
+/// A slab of a capped surface counts planes of the lattice that has one more on every side: the
+/// first slab begins with the cap below plane 0.
+///
+/// @throws std::invalid_argument  as extract() (a bad source is named by the field); options.edges
+///         is set; source.read is empty; planes_per_slab is negative.
+/// @throws std::bad_alloc  as extract(), for a slab; what was delivered before it stays valid.
+/// Memory: planes_per_slab + 3 planes of samples (capped: 4) and of signs, and the surface of a
+/// slab.
 template <class Real>
 SHAPE3D_ZMC_EXPORT Status stream(const PlaneSource& source, double isovalue, const Options& options,
                                  const StreamOptions& stream_options,

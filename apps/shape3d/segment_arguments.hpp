@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <shape3d/levelset/segment.hpp>
+#include <shape3d/zmc/volume_view.hpp>
+
+#include "program.hpp"
+
+namespace shape3d::apps {
+
+/// A plane whose contour is wanted, and where: "z=26", "out.svg".
+struct ContourWish {
+  int axis = 2;
+  std::int64_t slice = 0;
+  std::string path;
+};
+
+/// The command line of `shape3d segment`.
+struct SegmentArguments {
+  std::string volume, series, output;
+  std::vector<std::int64_t> roi;  ///< Empty, or x0 x1 y0 y1 z0 z1, half-open.
+  std::vector<double> roi_mm;  ///< Empty, or the same in LPS millimetres: the box of nodes inside.
+  std::vector<double> seed;    ///< Empty, or x y z in samples of the volume.
+  double radius = 0.0;         ///< mm, of the start sphere; 0: the front starts as the box.
+  std::string classes = "3";   ///< "auto" or a number.
+  std::string inside = "bright";  ///< "bright", "dark" or "i,j,…".
+  bool keep_connected = false;
+  bool nodule = false;
+  std::string psi, mesh, truth, plot;
+  double truth_label = 0.0;           ///< 0: all that is not 0.
+  std::vector<std::string> contours;  ///< Pairs of plane and file.
+  levelset::SegmentOptions options;
+};
+
+/// A region of the volume by indices, half-open.
+struct Region {
+  std::array<std::int64_t, 3> lower{}, upper{};
+};
+
+/// What --roi or --roi-mm says; the whole volume without either.
+/// @throws UsageError  naming the axis and the numbers: the box is empty, inverted or reaches
+///         outside the volume; in millimetres, no sample lies in it.
+[[nodiscard]] Region region_of(const SegmentArguments& arguments, const zmc::VolumeView& volume);
+
+/// "z=26" and "out.svg", … by pairs.
+/// @throws UsageError  another word than x=N, y=N or z=N; a file that is not .svg.
+[[nodiscard]] std::vector<ContourWish> contour_wishes(const std::vector<std::string>& words);
+
+/// Segments, measures, writes, plots and reports.
+/// @throws UsageError, FileError, PictureError
+void segment_volume(const SegmentArguments& arguments, const Settings& settings);
+
+}  // namespace shape3d::apps
