@@ -238,7 +238,7 @@ int run(int argc, char** argv) {
     const Subject& subject = subjects[i];
     const Row& r = maps[i];
     const Row& f = flows[i];
-    const bool mapped = r.angle.max > 0;
+    const bool mapped = std::strncmp(r.status, "certified", 9) == 0;
     const auto number = [mapped](double value, int digits) {
       return mapped ? fixed(value, digits) : std::string();
     };
