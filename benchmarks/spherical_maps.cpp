@@ -187,9 +187,7 @@ std::vector<Subject> generated() {
   return subjects;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   double flow_limit = 1e9;
   std::vector<Subject> subjects;
   for (int i = 1; i < argc; ++i) {
@@ -240,7 +238,7 @@ int main(int argc, char** argv) {
     const Subject& subject = subjects[i];
     const Row& r = maps[i];
     const Row& f = flows[i];
-    const bool mapped = r.angle.max > 0;
+    const bool mapped = std::strncmp(r.status, "certified", 9) == 0;
     const auto number = [mapped](double value, int digits) {
       return mapped ? fixed(value, digits) : std::string();
     };
@@ -280,4 +278,15 @@ int main(int argc, char** argv) {
       quality.text().c_str(), comparison.text().c_str(), minimisation.text().c_str(),
       subjects.size(), refused, above_linear, above_flow);
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "shape3d_spherical_maps: %s\n", error.what());
+    return 1;
+  }
 }

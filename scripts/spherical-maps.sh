@@ -9,6 +9,7 @@ build=${SHAPE3D_BUILD:-build/bench}
 [[ -f $build/CMakeCache.txt ]] || cmake --preset bench >/dev/null
 cmake --build "$build" --target shape3d_spherical_maps >&2
 
+load=$(cut -d' ' -f1 /proc/loadavg)
 mkdir -p docs/results
 result=docs/results/spherical-maps.md
 work=$(mktemp "$result.XXXXXX")
@@ -43,7 +44,7 @@ meshes=()
 EOF
   "$build/benchmarks/shape3d_spherical_maps" "$@" "${meshes[@]}"
   echo
-  echo "Seconds: one run, one thread, $(sed -n 's/^model name\s*: //p' /proc/cpuinfo | head -1), with other work on the machine${SHAPE3D_NOTE:+; $SHAPE3D_NOTE}.
+  echo "Seconds: one run, one thread, $(sed -n 's/^model name\s*: //p' /proc/cpuinfo | head -1), load ${load} at the start.
 Flows run two at a time.
 Peak memory is that of a process that makes or reads the mesh and maps it twice."
 } >"$work"

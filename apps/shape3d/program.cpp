@@ -44,6 +44,14 @@ std::string command_names(CLI::App& app) {
   return names;
 }
 
+std::string memory_left() { return bytes_to_text(available_memory()) + " are available"; }
+
+// TBB says so by a runtime_error of this text; the stack of the thread is what there is no room
+// for.
+bool thread_not_started(const std::string& sentence) {
+  return sentence.find("pthread_create") != std::string::npos;
+}
+
 void add_shared_options(CLI::App& app, Settings& settings) {
   app.add_flag("-q,--quiet", settings.quiet, "No report, no warnings, no progress; errors only");
   app.add_option("--threads", settings.threads,
@@ -113,10 +121,11 @@ int run_program(int argc, char** argv) {
   } catch (const UsageError& error) {
     return fail(error.what(), kUsage);
   } catch (const std::bad_alloc&) {
-    return fail("not enough memory; " + bytes_to_text(available_memory()) + " are available",
-                kFailure);
+    return fail("not enough memory; " + memory_left(), kFailure);
   } catch (const std::exception& error) {
-    return fail(error.what(), kFailure);
+    const std::string sentence = error.what();
+    if (!thread_not_started(sentence)) return fail(sentence, kFailure);
+    return fail("not enough memory for a thread (" + sentence + "); " + memory_left(), kFailure);
   }
 }
 

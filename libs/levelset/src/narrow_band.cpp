@@ -11,7 +11,7 @@ namespace {
 
 /// Distances are made right this many nodes away from those beside the front, which moves by two
 /// nodes between two redistancings, in which it also carries what the front left behind.
-constexpr int kSpreadingPasses = 2;
+constexpr int kSpreadingPasses = 3;
 /// Redistancings over which the net displacement is looked at, too.
 constexpr int kWindow = 8;
 
@@ -33,6 +33,7 @@ NarrowBand::NarrowBand(const Lattice& lattice, const Field& psi, const Field& ad
   max_speed_.assign(count, 0.0F);
   near_.assign(count, kAllRows);
   next_near_ = near_;
+  calm_.assign(count, 0);
   inside_.assign(count, 0);
   crossed_.assign(count, 0);
   beside_.assign(count, 0);
@@ -166,13 +167,18 @@ NarrowBand::Motion NarrowBand::redistance(double rest) {
     if (beside_[t] == 0) continue;
     const double displacement = change / beside_[t];
     motion.greatest = std::max(motion.greatest, displacement);
-    moving[t] = displacement > rest ? 1 : 0;
-    // To and fro about the same place, as where an object is one node thin, is rest.
-    if (window_end && std::abs(volume_[t] - anchor_[t]) * 3.0 * length <= rest * beside_[t])
-      moving[t] = 0;
+    // To and fro about the same place, as where an object is one node thin, is rest: a tile whose
+    // net displacement over a window was small is calm until it is a tenth of a node from there.
+    const double net = std::abs(volume_[t] - anchor_[t]) * 3.0 * length / beside_[t];
+    if (net > 0.1 * length) calm_[t] = 0;
+    if (window_end && net <= std::max(rest, 0.02 * length)) calm_[t] = 1;
+    moving[t] = rest >= 0.0 && calm_[t] != 0 ? 0 : displacement > rest ? 1 : 0;
   }
   motion.mean = motion.nodes > 0 ? swept / static_cast<double>(motion.nodes) : 0.0;
-  if (window_end) anchor_ = volume_;
+  if (window_end) {
+    for (std::size_t t = 0; t < calm_.size(); ++t)
+      if (calm_[t] == 0) anchor_[t] = volume_[t];
+  }
   std::vector<char> now = lattice_.tiles.dilate(moving);
   settle(is_active_, now);
   is_active_ = std::move(now);

@@ -56,7 +56,7 @@ class NarrowBand {
   float limit_, slope_;
   int threads_, redistancings_ = 0;
   std::vector<std::int64_t> active_;
-  std::vector<char> is_active_;
+  std::vector<char> is_active_, calm_;
   // By tile:
   std::vector<RowMask> near_, next_near_;  // rows with a node nearer than the limit
   std::vector<float> max_speed_;
