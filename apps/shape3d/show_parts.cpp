@@ -386,7 +386,10 @@ ShownParts shown_parts(const Mesh& mesh, const d::Descriptor& descriptor, int th
   ShownParts parts;
   Collector collector(parts);
   const PosedMesh posed = posed_mesh(mesh, descriptor.align(), descriptor.needs_map());
-  collector.add_scene(collector.scene(mesh_of(posed.V, posed.F)), "mesh");
+  // Those of a spherical map begin with the mesh in colors.
+  if (!descriptor.needs_map()) {
+    collector.add_scene(collector.scene(mesh_of(posed.V, posed.F)), "mesh");
+  }
   std::visit([&](const auto& parameters) { show(collector, parameters, posed, threads); },
              descriptor.parameters());
   return parts;
