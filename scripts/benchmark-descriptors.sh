@@ -14,6 +14,6 @@ trap 'rm -rf "$work"' EXIT
 "$build/benchmarks/shape3d_descriptors_bench" --benchmark_min_time=0.1 --benchmark_repetitions=5 \
   --benchmark_report_aggregates_only=true --benchmark_out="$work/times.json" \
   --benchmark_out_format=json "$@" >&2
-/usr/bin/python3 scripts/benchmark-descriptors.py "$work/times.json" benchmarks/descriptors_remarks.md >"$work/page.md"
+/usr/bin/python3 scripts/benchmark-descriptors.py "$work/times.json" benchmarks/descriptor_times_remarks.md >"$work/page.md"
 install -m 644 "$work/page.md" "$result"
 echo "$result"

@@ -67,6 +67,10 @@ same vector for every angle; HSH and Gram matrices do not, because their radial 
 D2 of five tanks and five cars of the Princeton Shape Benchmark (Fig. 5.2): as gross shapes are alike, so are
 their histograms.
 
+Meshes of one name are compared with their finest. Not all show the same surface: those of the fish and spot_6k
+come from other sources than the finest one, and their rows measure that difference; generated bodies are one
+surface at each number of triangles.
+
 PAGE
     "$build/benchmarks/shape3d_descriptor_invariance" --shapes "${shapes[@]}" --resolutions \
       "$SHAPE3D_DATA"/genus0/{bunny_6k,bunny_60k,spot_2k,spot_6k,spot_23k,fish_2k,fish_22k}.off \

@@ -13,7 +13,8 @@ packages=(
   libcli11-dev nlohmann-json3-dev libhdf5-dev                    # programs: command line, reports, tables
   xvfb xauth libgl1-mesa-dri                                     # pictures without a display
   catch2 libbenchmark-dev                                        # tests, benchmarks
-  python3-nibabel python3-pydicom python3-numpy                  # fixtures of the tests
+  python3-nibabel python3-pydicom python3-numpy python3-h5py     # fixtures and checks of the tests
+  python3-scipy                                                  # scripts that write results
   imagemagick invesalius-examples                                # demonstration: a real CT
 )
 

@@ -59,8 +59,9 @@ TEST_CASE("help and version", "[program]") {
   const Run version = run_shape3d({"--version"});
   CHECK(version.status == 0);
   CHECK_THAT(version.out, Catch::Matchers::StartsWith("shape3d 0."));
-  for (const char* command : {"info", "extract", "contours", "check", "render", "compare", "segment",
-                              "describe", "map", "align", "repair", "simplify", "wrap"}) {
+  for (const char* command :
+       {"info", "extract", "contours", "check", "render", "compare", "segment", "describe", "map",
+        "align", "repair", "simplify", "wrap"}) {
     INFO(command);
     const Run help = run_shape3d({command, "--help"});
     CHECK(help.status == 0);

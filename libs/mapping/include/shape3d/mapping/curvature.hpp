@@ -37,8 +37,8 @@ struct Curvature {
 ///
 /// @param V  #V by 3, finite.
 /// @param F  #F by 3 rows of V, oriented so that normals point outwards; may have a boundary.
-/// @throws std::invalid_argument  a coordinate is not finite; an index is out of range; the extent is
-/// beyond the range of double; an option is out of range.
+/// @throws std::invalid_argument  a coordinate is not finite; an index is out of range; the extent
+/// is beyond the range of double; an option is out of range.
 ///
 /// Errors fall by the power of the edge length given above at interior vertices with neighbours on
 /// all sides. Equivariant under motions and scale. Deterministic. O(#V · neighbours), about 0.5 s
