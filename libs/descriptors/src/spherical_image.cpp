@@ -1,7 +1,9 @@
 #include "shape3d/descriptors/spherical_image.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,34 +32,73 @@ struct Drawing {
 // memory of an image.
 int parts_of(int size) { return size <= 256 ? 8 : 1; }
 
-// Triangle t of a linear attribute as s² flat pieces with the attribute's value at their centres.
-void add_divided(const Drawing& drawing, Eigen::Index t, SphereCells& cells) {
-  const Eigen::Vector3d A = drawing.S.row(drawing.F(t, 0)), B = drawing.S.row(drawing.F(t, 1)),
-                        C = drawing.S.row(drawing.F(t, 2));
-  const double edge = std::max({(B - A).norm(), (C - B).norm(), (A - C).norm()});
-  const int s = std::max(1, static_cast<int>(std::ceil(edge / (0.5 * detail::kPi / drawing.size))));
-  const Eigen::VectorXd a = drawing.values.row(drawing.F(t, 0)),
-                        b = drawing.values.row(drawing.F(t, 1)),
-                        c = drawing.values.row(drawing.F(t, 2));
-  const auto corner = [&](int i, int j) {
-    return off_axis((A + (B - A) * (double(i) / s) + (C - A) * (double(j) / s)).normalized());
+// A triangle of a linear attribute, halved at its longest edge until no edge is longer than half a
+// cell; each piece has the attribute's value at its middle. Places are barycentric.
+class DividedTriangle {
+ public:
+  DividedTriangle(const Drawing& drawing, SphereCells& cells)
+      : drawing_(drawing),
+        cells_(cells),
+        limit_(0.5 * detail::kPi / drawing.size),
+        value_(drawing.values.cols()) {}
+
+  void add(Eigen::Index t) {
+    for (int i = 0; i < 3; ++i) {
+      corners_.col(i) = drawing_.S.row(drawing_.F(t, i));
+      values_[static_cast<std::size_t>(i)] = drawing_.F(t, i);
+    }
+    const Place a{Eigen::Vector3d::UnitX(), corners_.col(0)},
+        b{Eigen::Vector3d::UnitY(), corners_.col(1)}, c{Eigen::Vector3d::UnitZ(), corners_.col(2)};
+    divide(a, b, c);
+  }
+
+ private:
+  struct Place {
+    Eigen::Vector3d weights;    // barycentric
+    Eigen::Vector3d direction;  // of the point, a unit vector
   };
-  Eigen::VectorXd value(a.size());
-  const auto value_at = [&](double i, double j) {
-    value = a + (b - a) * (i / s) + (c - a) * (j / s);
-    return value.data();
-  };
-  for (int j = 0; j < s; ++j) {
-    for (int i = 0; i + j < s; ++i) {
-      cells.add({corner(i, j), corner(i + 1, j), corner(i, j + 1)},
-                value_at(i + 1.0 / 3.0, j + 1.0 / 3.0));
-      if (i + j + 1 < s) {
-        cells.add({corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)},
-                  value_at(i + 2.0 / 3.0, j + 2.0 / 3.0));
+
+  void divide(const Place& a, const Place& b, const Place& c) {
+    const double ab = (b.direction - a.direction).squaredNorm(),
+                 bc = (c.direction - b.direction).squaredNorm(),
+                 ca = (a.direction - c.direction).squaredNorm();
+    const double longest = std::max({ab, bc, ca});
+    if (longest <= limit_ * limit_) {
+      const Eigen::Vector3d weights = (a.weights + b.weights + c.weights) / 3.0;
+      for (Eigen::Index k = 0; k < value_.size(); ++k) {
+        value_[k] = weights[0] * drawing_.values(values_[0], k) +
+                    weights[1] * drawing_.values(values_[1], k) +
+                    weights[2] * drawing_.values(values_[2], k);
       }
+      cells_.add({off_axis(a.direction), off_axis(b.direction), off_axis(c.direction)},
+                 value_.data());
+      return;
+    }
+    if (longest == ab) {
+      halve(a, b, c);
+    } else if (longest == bc) {
+      halve(b, c, a);
+    } else {
+      halve(c, a, b);
     }
   }
-}
+
+  // At the middle of the edge from a to b.
+  void halve(const Place& a, const Place& b, const Place& c) {
+    Place middle;
+    middle.weights = 0.5 * (a.weights + b.weights);
+    middle.direction = (corners_ * middle.weights).normalized();
+    divide(a, middle, c);
+    divide(middle, b, c);
+  }
+
+  const Drawing& drawing_;
+  SphereCells& cells_;
+  double limit_;
+  Eigen::Matrix3d corners_;
+  std::array<std::int32_t, 3> values_{};  // rows of the attribute
+  Eigen::VectorXd value_;
+};
 
 Eigen::MatrixXd area_means(const Drawing& drawing) {
   const int components = static_cast<int>(drawing.values.cols());
@@ -68,9 +109,10 @@ Eigen::MatrixXd area_means(const Drawing& drawing) {
   detail::parallel_blocks(parts, 1, drawing.threads, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t part = first; part < last; ++part) {
       SphereCells& sums = cells[static_cast<std::size_t>(part)];
+      DividedTriangle divided(drawing, sums);
       for (Eigen::Index t = count * part / parts; t < count * (part + 1) / parts; ++t) {
         if (drawing.at_vertices) {
-          add_divided(drawing, t, sums);
+          divided.add(t);
         } else {
           const Eigen::VectorXd value = drawing.values.row(t);
           sums.add(
