@@ -83,7 +83,7 @@ void add_wrap(CLI::App& app, Settings& settings) {
   command->add_option("-o,--output", arguments->output, "The wrap")->required()->type_name("FILE");
   command
       ->add_option("--finest", arguments->options.finest,
-                   "Smallest alpha: the diagonal of the bounding box over this (default 100)")
+                   "Smallest alpha: the diagonal of the bounding box over this (default 50)")
       ->check(CLI::Range(1.0, 1000.0))
       ->type_name("N");
   command
@@ -99,7 +99,7 @@ void add_wrap(CLI::App& app, Settings& settings) {
   command->footer(
       "Examples:\n"
       "  shape3d wrap teapot.off -o closed.ply\n"
-      "  shape3d wrap teapot.off -o closed.ply --finest 50 --picture wrap.png");
+      "  shape3d wrap teapot.off -o closed.ply --finest 100 --picture wrap.png");
   command->callback([arguments, &settings] {
     settings.run = [arguments, &settings] { run_wrap(*arguments, settings); };
   });
