@@ -252,7 +252,8 @@ int run(int argc, char** argv) {
                  mapped ? std::to_string(r.over_ten_slivers) : "", number(r.energy, 4),
                  number(100 * r.starved, 0) + (mapped ? " %" : ""), mapped ? shortest : ""});
     const bool flowed = f.flow_flipped >= 0;
-    const double ratio = flowed && f.flow_angle.mean > 0 ? r.angle.mean / f.flow_angle.mean : 0;
+    const double ratio =
+        mapped && flowed && f.flow_angle.mean > 0 ? r.angle.mean / f.flow_angle.mean : 0;
     comparison.add({subject.name, number(r.linear_angle.mean, 3), number(r.angle.mean, 3),
                     flowed ? fixed(f.flow_angle.mean, 3) : "", ratio > 0 ? fixed(ratio, 3) : "",
                     number(r.linear_sigma.max, 1), number(r.sigma.max, 2),
