@@ -1,14 +1,13 @@
 #include "parallel.hpp"
 
 #include <algorithm>
-#include <thread>
-
-#ifdef SHAPE3D_ZMC_STD_THREADS
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <thread>
 #include <vector>
-#else
+
+#ifndef SHAPE3D_ZMC_STD_THREADS
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -60,10 +59,41 @@ void parallel_ranges(std::int64_t count, std::int64_t grain, int threads,
 
 #else
 
+namespace {
+
+/// Whether so many threads can be started beside the calling one. TBB throws in the midst of its
+/// work when it cannot start one; a process short of memory or threads is better served by the
+/// calling thread alone. Asked once: TBB keeps its threads.
+bool can_start(int workers) {
+  static std::atomic<int> known{0};
+  if (workers <= known.load(std::memory_order_relaxed)) return true;
+  std::mutex gate;
+  std::vector<std::thread> team;
+  bool all = true;
+  {
+    const std::lock_guard<std::mutex> closed(gate);  // all at a time
+    try {
+      team.reserve(static_cast<std::size_t>(workers));
+      for (int w = 0; w < workers; ++w) {
+        team.emplace_back([&gate] { const std::lock_guard<std::mutex> open(gate); });
+      }
+    } catch (const std::exception&) {
+      all = false;
+    }
+  }
+  for (std::thread& member : team) member.join();
+  if (all) known.store(workers, std::memory_order_relaxed);
+  return all;
+}
+
+}  // namespace
+
 void parallel_ranges(std::int64_t count, std::int64_t grain, int threads,
                      const std::function<void(std::int64_t, std::int64_t)>& body) {
   if (count <= 0) return;
-  if (threads <= 1 || count <= grain) {
+  // TBB starts no more threads than there are processors.
+  const int workers = std::min(threads, resolve_threads(0)) - 1;
+  if (threads <= 1 || count <= grain || !can_start(workers)) {
     body(0, count);
     return;
   }
