@@ -19,7 +19,7 @@ trap 'rm -rf "$work"' EXIT
 run() {
   local name=$1
   shift
-  "$@" "$build/benchmarks/shape3d_mesh_bench" --benchmark_repetitions=5 \
+  "$@" "$build/benchmarks/shape3d_mesh_bench" --benchmark_repetitions=3 \
     --benchmark_min_time=0.02 --benchmark_out="$work/$name.json" --benchmark_out_format=json >&2
 }
 run generated env -u SHAPE3D_BENCH_MESH

@@ -62,31 +62,45 @@ std::vector<Raster> render(const std::vector<Drawing>& drawings, const PictureOp
   return rasters;
 }
 
-/// Where the parts of panels are, in pixels; the same for all panels of a picture.
+/// A row of panels: heights of what is above and below their bodies, 0 where no panel has it.
+struct Row {
+  int caption = 0, foot = 0;
+  int top = 0;  ///< Of the row in the picture.
+};
+
+/// Where the parts of panels are, in pixels; all bodies have one size.
 struct Layout {
-  int columns = 0, rows = 0;
-  int cell_width = 0, cell_height = 0;
-  int font = 0;               ///< Height of a line.
-  int caption = 0, foot = 0;  ///< Heights above and below the body.
-  int gap = 0;                ///< Between cells.
-  [[nodiscard]] int body_height() const { return cell_height - caption - foot; }
+  int columns = 0;
+  int cell_width = 0, body_height = 0;
+  int font = 0;  ///< Height of a line.
+  int gap = 0;   ///< Between cells.
+  std::vector<Row> rows;
 };
 
 Layout layout_of(const std::vector<Panel>& panels, const PictureOptions& options, int columns) {
   Layout layout;
   const int count = static_cast<int>(panels.size());
   layout.columns = columns <= 0 ? count : std::min(columns, count);
-  layout.rows = (count + layout.columns - 1) / layout.columns;
+  const int rows = (count + layout.columns - 1) / layout.columns;
   layout.gap = std::max(2, std::min(options.width / layout.columns, options.height) / 50);
   layout.cell_width = (options.width - (layout.columns - 1) * layout.gap) / layout.columns;
-  layout.cell_height = (options.height - (layout.rows - 1) * layout.gap) / layout.rows;
-  layout.font = std::clamp(std::min(layout.cell_width, layout.cell_height) / 20, 10, 48);
-  const auto any = [&panels](auto has) { return std::any_of(panels.begin(), panels.end(), has); };
-  if (any([](const Panel& panel) { return !panel.caption.empty(); }))
-    layout.caption = 3 * layout.font / 2;
-  if (any([](const Panel& panel) { return panel.scale.has_value(); }))
-    layout.foot = 4 * layout.font;
-  if (layout.cell_width < 32 || layout.body_height() < 32) {
+  int height = options.height - (rows - 1) * layout.gap;
+  layout.font = std::clamp(std::min(layout.cell_width, height / rows) / 20, 10, 48);
+  layout.rows.resize(static_cast<std::size_t>(rows));
+  for (int i = 0; i < count; ++i) {
+    Row& row = layout.rows[static_cast<std::size_t>(i / layout.columns)];
+    const Panel& panel = panels[static_cast<std::size_t>(i)];
+    if (!panel.caption.empty()) row.caption = 3 * layout.font / 2;
+    if (panel.scale) row.foot = 4 * layout.font;
+  }
+  for (const Row& row : layout.rows) height -= row.caption + row.foot;
+  layout.body_height = height / rows;
+  int top = 0;
+  for (Row& row : layout.rows) {
+    row.top = top;
+    top += row.caption + layout.body_height + row.foot + layout.gap;
+  }
+  if (layout.cell_width < 32 || layout.body_height < 32) {
     throw PictureError("a picture of " + std::to_string(options.width) + " × " +
                        std::to_string(options.height) + " pixels is too small for " +
                        std::to_string(count) + " panels");
@@ -157,8 +171,8 @@ std::string draw_panels(const std::vector<Panel>& panels, const PictureOptions& 
   std::vector<Drawing> drawings;
   for (const Panel& panel : panels) {
     if (panel.meshes.empty()) continue;
-    drawings.push_back({&panel.meshes, panel.view.value_or(options.view), layout.cell_width,
-                        layout.body_height()});
+    drawings.push_back(
+        {&panel.meshes, panel.view.value_or(options.view), layout.cell_width, layout.body_height});
   }
   const std::vector<Raster> rendered = render(drawings, options);
   Raster page = make_raster(options.width, options.height, options.background);
@@ -170,18 +184,17 @@ std::string draw_panels(const std::vector<Panel>& panels, const PictureOptions& 
   for (int i = 0; i < static_cast<int>(panels.size()); ++i) {
     const Panel& panel = panels[static_cast<std::size_t>(i)];
     const int x = i % layout.columns * (layout.cell_width + layout.gap);
-    const int y = i / layout.columns * (layout.cell_height + layout.gap);
-    const int body = y + layout.caption;
-    const Raster part = panel.meshes.empty()
-                            ? fitted(panel, layout.cell_width, layout.body_height())
-                            : rendered[next++];
+    const Row& row = layout.rows[static_cast<std::size_t>(i / layout.columns)];
+    const int y = row.top, body = y + row.caption;
+    const Raster part = panel.meshes.empty() ? fitted(panel, layout.cell_width, layout.body_height)
+                                             : rendered[next++];
     paste(page, part, x + (layout.cell_width - part.width) / 2,
-          body + (layout.body_height() - part.height) / 2);
+          body + (layout.body_height - part.height) / 2);
     draw_text(page, panel.caption, x + layout.cell_width / 2, y + 6 * layout.font / 5,
               fitting_size(panel.caption, layout.font, layout.cell_width, true), TextAlign::centre,
               ink, true);
     if (panel.scale) {
-      draw_bar(page, *panel.scale, x, body + layout.body_height(), layout, ink);
+      draw_bar(page, *panel.scale, x, body + layout.body_height, layout, ink);
     }
   }
   return to_png(page);

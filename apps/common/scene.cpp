@@ -44,7 +44,8 @@ constexpr NamedView kViews[] = {{"front", View::front, {0, -1, 0}, {0, 0, 1}},
                                 {"right", View::right, {-1, 0, 0}, {0, 0, 1}},
                                 {"top", View::top, {0, 0, 1}, {0, -1, 0}},
                                 {"bottom", View::bottom, {0, 0, -1}, {0, -1, 0}},
-                                {"oblique", View::oblique, {0.62, -1, 0.28}, {0, 0, 1}}};
+                                {"oblique", View::oblique, {0.62, -1, 0.28}, {0, 0, 1}},
+                                {"upright", View::upright, {0.5, 0.35, 1}, {0, 1, 0}}};
 
 // Mean of the triangle normals at each vertex, by area. Not VTK's filter, whose threads do not
 // outlive fork().

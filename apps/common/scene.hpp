@@ -12,12 +12,14 @@
 namespace shape3d::apps {
 
 /// From where a patient, or any mesh in LPS, is looked at; oblique is between front, left and top.
-enum class View { front, back, left, right, top, bottom, oblique };
+/// upright is for meshes whose y axis points up and whose z axis points forward, as in most
+/// collections of shapes: from in front, a little from the right and above.
+enum class View { front, back, left, right, top, bottom, oblique, upright };
 
 /// By its name; empty for another word.
 [[nodiscard]] std::optional<View> view_named(std::string_view name);
-/// "front, back, left, right, top, bottom, oblique".
-inline constexpr std::string_view kViewNames = "front, back, left, right, top, bottom, oblique";
+inline constexpr std::string_view kViewNames =
+    "front, back, left, right, top, bottom, oblique, upright";
 
 /// One mesh of a picture. A mesh whose space is RAS is turned into LPS.
 struct SceneMesh {

@@ -54,9 +54,9 @@ void MeshOutput::write(const Mesh& mesh) {
 void add_picture_options(CLI::App& command, PictureArguments& arguments, const std::string& what) {
   command.add_option("--picture", arguments.path, what + " (.png)")->type_name("FILE");
   command
-      .add_option(
-          "--view", arguments.view,
-          "From where the picture is seen: " + std::string(kViewNames) + " (default oblique)")
+      .add_option("--view", arguments.view,
+                  "From where the picture is seen: " + std::string(kViewNames) +
+                      " (default upright, for meshes whose y axis points up)")
       ->type_name("VIEW");
 }
 

@@ -40,7 +40,7 @@ class MeshOutput {
 /// What commands that draw have in common.
 struct PictureArguments {
   std::string path;  ///< Empty: no picture.
-  std::string view = "oblique";
+  std::string view = "upright";
 };
 /// Adds --picture and --view.
 void add_picture_options(CLI::App& command, PictureArguments& arguments, const std::string& what);

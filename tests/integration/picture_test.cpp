@@ -225,6 +225,26 @@ TEST_CASE("panels in rows", "[picture][panels]") {
   CHECK(pixel(page, 150, 150) == Pixel{0, 0, 51});
 }
 
+TEST_CASE("bodies have one size, whatever their rows have besides", "[picture][panels]") {
+  std::vector<Panel> panels(2);
+  panels[0].image = panels[1].image = {1, 1, {0, 0, 255}};
+  panels[1].caption = "with a bar";
+  panels[1].scale = ColorScale{ColorMap::grey, 0, 1, false, "share"};
+  PictureOptions options;
+  options.width = 200;
+  options.height = 400;
+  const PngImage page = decode_png(draw_panels(panels, options, 1));
+  std::vector<int> heights;  // of the runs of blue from top to bottom
+  for (int y = 0; y < 400; ++y) {
+    const bool blue = pixel(page, 100, y) == Pixel{0, 0, 255};
+    if (blue && (y == 0 || pixel(page, 100, y - 1) != Pixel{0, 0, 255})) heights.push_back(0);
+    if (blue) ++heights.back();
+  }
+  REQUIRE(heights.size() == 2);
+  CHECK(heights[0] == heights[1]);
+  CHECK(heights[0] > 140);  // the first row keeps no room for a bar
+}
+
 TEST_CASE("images in other sizes", "[picture][raster]") {
   Raster image = make_raster(6, 4, {0, 0, 0});
   fill(image, 0, 0, 3, 4, {1, 1, 1});
