@@ -17,7 +17,7 @@ inline constexpr std::uint64_t kVolumeMemory = std::uint64_t{1} << 26;
 /// A message names its file and is printable.
 inline void check_message(const apps::FileError& error) {
   const std::string text = error.what();
-  const std::string path = apps::printable(error.path());
+  const std::string path = apps::printable(error.path().string());
   check(!path.empty() && text.rfind(path + ": ", 0) == 0, "an error names its file: " + text);
   check(text.size() > path.size() + 4, "an error has a sentence: " + text);
   for (const char c : text) {

@@ -343,7 +343,8 @@ std::string series_list(const std::vector<DicomSeries>& series) {
     const DicomSeries& one = series[n];
     std::size_t slices = 0;
     for (const DicomFile& file : one.files) slices += std::max<std::size_t>(file.frames.size(), 1);
-    list += "\n  " + std::to_string(n + 1) + ": " + one.uid + "  " + one.modality;
+    list +=
+        "\n  " + std::to_string(n + 1) + ": " + printable(one.uid) + "  " + printable(one.modality);
     if (!one.description.empty()) list += " " + in_quotes(one.description);
     list += ", " + std::to_string(slices) + (slices == 1 ? " slice" : " slices") + " of " +
             std::to_string(one.files.front().columns) + " x " +

@@ -7,12 +7,12 @@
 
 namespace shape3d::apps {
 
-/// A path for messages: a file may name another one, and control characters in the name would speak
-/// to the terminal. They become '?'.
-[[nodiscard]] inline std::string printable(const std::filesystem::path& path) {
-  std::string text = path.string();
+/// A text out of a file, or a path that one names, for messages: control characters, which would
+/// speak to the terminal, become '?'.
+/// @param lines  Line ends stay.
+[[nodiscard]] inline std::string printable(std::string text, bool lines = false) {
   for (char& c : text) {
-    if ((c >= 0 && c < ' ') || c == '\x7f') c = '?';
+    if (((c >= 0 && c < ' ') || c == '\x7f') && !(lines && c == '\n')) c = '?';
   }
   return text;
 }
@@ -22,7 +22,8 @@ namespace shape3d::apps {
 class FileError : public std::runtime_error {
  public:
   FileError(const std::filesystem::path& path, const std::string& sentence)
-      : std::runtime_error(printable(path) + ": " + sentence), path_(path) {}
+      : std::runtime_error(printable(path.string()) + ": " + printable(sentence, true)),
+        path_(path) {}
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 

@@ -197,6 +197,11 @@ TEST_CASE("a file name out of a header does not speak to the terminal", "[volume
   CHECK(error.find('\x1b') == std::string::npos);
 }
 
+TEST_CASE("control characters do not come out in errors", "[volume]") {
+  const FileError error("a\nb\x1b", "begins with \x1b[31m\x7f and lists\n  1: \u00e9\r");
+  CHECK(std::string(error.what()) == "a?b?: begins with ?[31m? and lists\n  1: \u00e9?");
+}
+
 TEST_CASE("more memory than there is: the error says how much is needed and how much there is",
           "[volume]") {
   const TemporaryFolder folder;
