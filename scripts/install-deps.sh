@@ -10,12 +10,15 @@ packages=(
   libeigen3-dev libtbb-dev                                       # libraries
   libvtk9-dev libvtk-dicom-dev zlib1g-dev                        # programs: volumes, meshes, pictures
   libcgal-dev libceres-dev                                       # libraries: mapping
+  libsvm-dev libsvm-tools libhnswlib-dev                         # libraries: learning, and its reference programs
+  libsqlite3-dev                                                 # programs: shape libraries
+  libvtk9-qt-dev qtbase5-dev                                     # viewer
   libcli11-dev nlohmann-json3-dev libhdf5-dev                    # programs: command line, reports, tables
   xvfb xauth libgl1-mesa-dri                                     # pictures without a display
   catch2 libbenchmark-dev                                        # tests, benchmarks
   python3-nibabel python3-pydicom python3-numpy python3-h5py     # fixtures and checks of the tests
   python3-scipy                                                  # scripts that write results
-  imagemagick invesalius-examples                                # demonstration: a real CT
+  imagemagick invesalius-examples libcgal-demo                   # demonstration: a real CT, meshes
 )
 
 missing=()
