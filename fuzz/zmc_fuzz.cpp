@@ -336,7 +336,10 @@ void run(const ZmcCase& one) {
       shape3d::zmc::test::properties_of(surface, open_edges(named, outside));
   check(properties.is_clean(), "no degenerate, double or unused element");
   if (options.zero_faces == ZeroFaces::boundary) {
-    check(properties.is_closed() && properties.inconsistent_edges == 0, "the surface is closed");
+    // Beside a masked cell two of an edge's four triangles may be missing, and the others run it
+    // the same way.
+    check(properties.is_closed() && (!one.finite() || properties.inconsistent_edges == 0),
+          "the surface is closed");
   }
   if (one.ordinary()) check_reference(one, status, surface, named, outside, properties);
   check_neutral(one, surface);
