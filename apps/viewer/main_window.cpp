@@ -39,6 +39,14 @@ constexpr int kPanelWidth = 300;
 
 QSettings settings() { return QSettings("Shape3D", "viewer"); }
 
+// What undo takes back: not where the crosshair and the cameras are, which move all the time.
+nlohmann::json parameters_of(const View* view) {
+  nlohmann::json state = view->state();
+  state.erase("cursor");
+  state.erase("layout");
+  return state;
+}
+
 }  // namespace
 
 MainWindow::MainWindow(bool remember) : theme_(make_theme(true)), remember_(remember) {
@@ -59,8 +67,15 @@ MainWindow::MainWindow(bool remember) : theme_(make_theme(true)), remember_(reme
   });
   for (View* view : make_views(document_)) adopt(view);
   // After the views, which have connected themselves when they were made.
-  connect(&document_, &Document::volume_changed, this, &MainWindow::update_front);
-  connect(&document_, &Document::meshes_changed, this, &MainWindow::update_front);
+  const auto begin_anew = [this] {
+    undo_.clear();
+    for (const View* view : views_) undo_.start(view->name().toStdString(), parameters_of(view));
+    undo_action_->setEnabled(false);
+    redo_action_->setEnabled(false);
+    update_front();
+  };
+  connect(&document_, &Document::volume_changed, this, begin_anew);
+  connect(&document_, &Document::meshes_changed, this, begin_anew);
   set_dark(!remember_ || settings().value("dark", true).toBool());
   if (remember_) restoreGeometry(settings().value("geometry").toByteArray());
   update_recent();
@@ -174,7 +189,10 @@ void MainWindow::make_menus() {
   look->addSeparator();
 
   QMenu* help = menuBar()->addMenu("&Help");
-  add_action(help, "&Keys", QKeySequence("?"), [this] { show_help(); });
+  // On some keyboards ? comes with Shift, on others without.
+  add_action(help, "&Keys", {}, [this] {
+    show_help();
+  })->setShortcuts({QKeySequence("?"), QKeySequence("Shift+?"), QKeySequence("F1")});
   for (QMenu* menu : {file, edit, look, help}) menu->setObjectName(menu->title());
 }
 
@@ -190,9 +208,9 @@ void MainWindow::adopt(View* view) {
   scroll->setWidget(view->panel());
   panels_->addWidget(scroll);
   const std::string name = view->name().toStdString();
-  undo_.start(name, view->state());
+  undo_.start(name, parameters_of(view));
   connect(view, &View::edited, this, [this, view, name] {
-    undo_.record(name, view->state());
+    undo_.record(name, parameters_of(view));
     undo_action_->setEnabled(undo_.can_undo());
     redo_action_->setEnabled(undo_.can_redo());
   });
@@ -338,7 +356,7 @@ void MainWindow::apply_waiting_states() {
     } catch (const std::exception& error) {
       fail("The session's state of view \"" + view->name() + "\" does not fit: " + error.what());
     }
-    undo_.start(name, view->state());
+    undo_.start(name, parameters_of(view));
   }
   if (view_named(waiting_view_) != nullptr) {
     show_view(waiting_view_);
@@ -355,7 +373,7 @@ void MainWindow::step(const std::optional<UndoStack::Step>& step) {
   if (!step) return;
   View* view = view_named(QString::fromStdString(step->owner));
   view->set_state(step->state);
-  undo_.start(step->owner, view->state());
+  undo_.start(step->owner, parameters_of(view));
   show_view(view->name());
   undo_action_->setEnabled(undo_.can_undo());
   redo_action_->setEnabled(undo_.can_redo());
@@ -363,13 +381,13 @@ void MainWindow::step(const std::optional<UndoStack::Step>& step) {
 
 void MainWindow::undo() {
   step(undo_.undo([this](const std::string& name) {
-    return view_named(QString::fromStdString(name))->state();
+    return parameters_of(view_named(QString::fromStdString(name)));
   }));
 }
 
 void MainWindow::redo() {
   step(undo_.redo([this](const std::string& name) {
-    return view_named(QString::fromStdString(name))->state();
+    return parameters_of(view_named(QString::fromStdString(name)));
   }));
 }
 
@@ -377,7 +395,7 @@ void MainWindow::reset() {
   View* view = current();
   if (view == nullptr || !view->missing().isEmpty()) return;
   view->reset();
-  undo_.record(view->name().toStdString(), view->state());
+  undo_.record(view->name().toStdString(), parameters_of(view));
   undo_action_->setEnabled(undo_.can_undo());
 }
 

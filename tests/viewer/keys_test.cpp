@@ -4,7 +4,7 @@
 #include <QApplication>
 #include <QDialog>
 #include <QDir>
-#include <QDropEvent>
+#include <QDragEnterEvent>
 #include <QLabel>
 #include <QMimeData>
 #include <QTemporaryDir>
@@ -93,6 +93,9 @@ TEST_CASE("files are dropped on the window", "[viewer][keys]") {
   const std::string path = write_tetrahedron(folder.filePath("t.off"));
   QMimeData data;
   data.setUrls({QUrl::fromLocalFile(QString::fromStdString(path))});
+  QDragEnterEvent enter(QPoint(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(&fixture.window(), &enter);
+  CHECK(enter.isAccepted());
   QDropEvent event(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QApplication::sendEvent(&fixture.window(), &event);
   REQUIRE(fixture.wait_until([&] { return fixture.document().meshes().size() == 1; }));

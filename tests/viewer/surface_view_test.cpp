@@ -27,6 +27,7 @@ struct Shown : WindowFixture {
 
   explicit Shown(std::shared_ptr<const OpenVolume> volume) {
     document().set_volume(std::move(volume));
+    document().set_window({1e6, 1.0});  // black slices: the lines stand out
     show("surface");
   }
   template <class Widget>

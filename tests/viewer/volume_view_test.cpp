@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <QVTKOpenGLNativeWidget.h>
+#include <QApplication>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QtTest/QTest>
@@ -59,6 +60,9 @@ TEST_CASE("a click in a slice moves the crosshair of all, and the line says wher
   hover(axial, at);
   CHECK(four->readout().contains("voxel 10 50 15"));
   CHECK(four->readout().contains("value 5010"));
+  QEvent leave(QEvent::Leave);
+  QApplication::sendEvent(axial, &leave);
+  CHECK(four->readout().startsWith("Crosshair"));
   CHECK(four->readout().contains("L 5.0  P 50.0  S 30.0 mm"));
   CHECK(changed_pixels(sagittal, WindowFixture::grab(four->slice(0))) > 50);
   hover(axial, {2, 2});
