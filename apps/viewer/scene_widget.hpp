@@ -16,6 +16,7 @@ class vtkPolyDataMapper;
 class vtkProp;
 class vtkProperty;
 class vtkRenderer;
+class vtkUnsignedCharArray;
 
 namespace shape3d::apps::viewer {
 
@@ -29,8 +30,9 @@ class SceneSurface {
 
   /// @param coarse  Null: the surface itself is drawn while turning, too.
   void set_geometry(vtkPolyData* full, vtkPolyData* coarse);
-  /// Colours of vertices or triangles (an array of three bytes each) are shown when data has them.
-  void show_scalars(bool on);
+  /// Colours, an array of three bytes, of the vertices or triangles of the full surface.
+  void set_colors(vtkUnsignedCharArray* colors, bool of_triangles);
+  void set_visible(bool visible);
   [[nodiscard]] vtkActor* actor() const;
   [[nodiscard]] vtkProperty* property() const;
   void set_coarse(bool coarse);

@@ -169,7 +169,7 @@ void SliceWidget::paint_box(QPainter& painter) {
   QPen pen(QColor(255, 200, 60), through ? 2.0 : 1.0);
   if (!through) pen.setStyle(Qt::DashLine);
   painter.setPen(pen);
-  painter.setBrush(through ? QColor(255, 200, 60, 24) : QColor(0, 0, 0, 0));
+  painter.setBrush(through ? QColor(255, 200, 60, 10) : QColor(0, 0, 0, 0));
   painter.drawRect(QRectF(pixel_of(lower), pixel_of(upper)).normalized());
   painter.setBrush(Qt::NoBrush);
 }

@@ -103,7 +103,7 @@ TEST_CASE("errors of the viewer are sentences with a status", "[viewer][program]
   check({"--offscreen", "-o", "x.jpg", "ball.mhd"}, 2, "expected a name that ends in .png");
   check({"--offscreen", "-o", "x.png", "--size", "9x9"}, 2, "--size 9x9: expected");
   check({"--offscreen", "-o", "x.png", "--view", "moon", "ball.mhd"}, 2,
-        "--view moon: expected one of volume, surface");
+        "--view moon: expected one of volume, surface, segmentation, sphere");
   check({"--offscreen", "-o", "x.png", "--state", "{", "ball.mhd"}, 2, "expected JSON");
   check({"--offscreen", "-o", "x.png", "--view", "surface", "--state", R"({"method": "mc33"})",
          "ball.mhd"},

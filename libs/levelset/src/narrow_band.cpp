@@ -205,6 +205,8 @@ std::int64_t NarrowBand::inside() const {
   return std::accumulate(inside_.begin(), inside_.end(), std::int64_t{0});
 }
 
+Field NarrowBand::copy() const { return unpad(lattice_, current_, threads_); }
+
 Field NarrowBand::take() {
   next_.resize(0);
   return unpad(lattice_, current_, threads_);

@@ -41,7 +41,9 @@ class NarrowBand {
     return static_cast<std::int64_t>(active_.size());
   }
   [[nodiscard]] std::int64_t inside() const;
-  /// ψ without ghosts. The buffers are given up.
+  /// ψ without ghosts.
+  [[nodiscard]] Field copy() const;
+  /// The same; the buffers are given up.
   [[nodiscard]] Field take();
 
  private:
