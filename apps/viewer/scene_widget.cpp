@@ -214,13 +214,14 @@ void SceneWidget::redraw() {
   waiting_ = true;
   QTimer::singleShot(0, this, [this] {
     waiting_ = false;
-    if (isVisible()) window_->Render();
+    if (isVisible()) static_cast<void>(draw_now());
   });
 }
 
 double SceneWidget::draw_now() {
   const auto start = std::chrono::steady_clock::now();
   window_->Render();
+  ++frames_;
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -66,6 +67,8 @@ class SceneWidget : public QWidget {
 
   /// Draws once, when the program next waits for events.
   void redraw();
+  /// Pictures that redraw() and draw_now() have made.
+  [[nodiscard]] std::int64_t frames() const { return frames_; }
   /// Draws now. @return seconds.
   double draw_now();
   /// Fits all that is there into the picture.
@@ -94,6 +97,7 @@ class SceneWidget : public QWidget {
   std::unique_ptr<Parts> parts_;
   std::vector<std::weak_ptr<SceneSurface>> surfaces_;
   bool interacting_ = false, waiting_ = false;
+  std::int64_t frames_ = 0;
 };
 
 /// The camera as numbers: position, focus, view up, angle, and back; for sessions.
