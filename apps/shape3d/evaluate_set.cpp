@@ -135,9 +135,6 @@ bool is_stale(const std::string& path, const std::vector<std::string>& specs) {
   }
 }
 
-// A short name: the kind and the keys that the user gave.
-std::string short_name(const std::string& spec) { return spec; }
-
 }  // namespace
 
 EvaluatedDescriptor parse_evaluated(const std::string& text, const std::string& distance) {
@@ -150,7 +147,7 @@ EvaluatedDescriptor parse_evaluated(const std::string& text, const std::string& 
                      word + ": expected " + std::string(learning::kDistanceNames));
   }
   try {
-    return {short_name(text), Descriptor::parse(spec), *kind, false};
+    return {text, Descriptor::parse(spec), *kind, 1.0, false};
   } catch (const std::invalid_argument& error) {
     throw UsageError("--descriptor " + text + ": " + error.what());
   }
@@ -158,7 +155,7 @@ EvaluatedDescriptor parse_evaluated(const std::string& text, const std::string& 
 
 std::vector<EvaluatedDescriptor> default_descriptors() {
   const auto part = [](const char* name, const char* spec, learning::Distance distance) {
-    return EvaluatedDescriptor{name, Descriptor::parse(spec), distance, false};
+    return EvaluatedDescriptor{name, Descriptor::parse(spec), distance, 1.0, false};
   };
   using learning::Distance;
   return {part("HSH 496", "hsh:K=30,unit=yes", Distance::L1),
@@ -169,7 +166,7 @@ std::vector<EvaluatedDescriptor> default_descriptors() {
 
 std::vector<EvaluatedDescriptor> baseline_descriptors() {
   const auto part = [](const char* name, const char* spec, learning::Distance distance) {
-    return EvaluatedDescriptor{name, Descriptor::parse(spec), distance, true};
+    return EvaluatedDescriptor{name, Descriptor::parse(spec), distance, 1.0, true};
   };
   using learning::Distance;
   return {part("random 45", "random:length=45", Distance::L2),

@@ -19,6 +19,7 @@ struct EvaluatedDescriptor {
   std::string name;  ///< In tables: short, no two equal.
   descriptors::Descriptor descriptor;
   learning::Distance distance = learning::Distance::L1;
+  double weight = 1.0;    ///< In the fusion.
   bool baseline = false;  ///< Beside the others, not in their fusion.
 };
 

@@ -59,6 +59,11 @@ double take_number(std::string_view& bytes) {
   return value;
 }
 
+void require_finite(const FeaturesView& X) {
+  if (X.allFinite()) return;
+  throw std::invalid_argument("X has a number that is not finite, expected finite ones");
+}
+
 // The principal directions of rows without mean, a column each, those of most variance first; their
 // number is at most the rank.
 MatrixXd principal_directions(const MatrixXd& X, int most) {
@@ -125,9 +130,7 @@ LinearMetric learn_linear_metric(const FeaturesView& X, const Labels& labels,
   }
   detail::require(options.shrinkage > 0.0 && std::isfinite(options.shrinkage), "shrinkage",
                   options.shrinkage, "a number above 0");
-  if (!X.allFinite()) {
-    throw std::invalid_argument("X has a number that is not finite, expected finite ones");
-  }
+  require_finite(X);
   LinearMetric metric;
   metric.mean = X.colwise().mean().transpose();
   const MatrixXd centred = X.rowwise() - metric.mean.transpose();
@@ -142,6 +145,20 @@ LinearMetric learn_linear_metric(const FeaturesView& X, const Labels& labels,
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(
       W + options.shrinkage * mean_variance * MatrixXd::Identity(k, k));
   metric.transform = solver.operatorInverseSqrt() * directions.transpose();
+  return metric;
+}
+
+LinearMetric principal_components(const FeaturesView& X, int most) {
+  if (X.rows() < 1) throw std::invalid_argument("X has 0 rows, expected 1 or more");
+  if (most < 0) {
+    throw std::invalid_argument("most is " + std::to_string(most) + ", expected 0 or more");
+  }
+  require_finite(X);
+  LinearMetric metric;
+  metric.mean = X.colwise().mean().transpose();
+  const MatrixXd directions = principal_directions(X.rowwise() - metric.mean.transpose(), most);
+  metric.transform = directions.transpose();
+  if (directions.cols() == 0) metric.transform = MatrixXd::Zero(1, X.cols());
   return metric;
 }
 

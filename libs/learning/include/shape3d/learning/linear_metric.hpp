@@ -44,4 +44,11 @@ struct LinearMetric {
 [[nodiscard]] SHAPE3D_LEARNING_EXPORT LinearMetric learn_linear_metric(
     const FeaturesView& X, const Labels& labels, const LinearMetricOptions& options = {});
 
+/// Principal components as a linear map: y = E^T (x − mean), the columns of E the directions of most
+/// variance, at most `most` of them and at most the rank; 0: all.
+/// @throws std::invalid_argument  X has no row; a number is not finite; `most` is negative.
+/// O(min(#X, n)² max(#X, n)).
+[[nodiscard]] SHAPE3D_LEARNING_EXPORT LinearMetric principal_components(const FeaturesView& X,
+                                                                        int most);
+
 }  // namespace shape3d::learning
