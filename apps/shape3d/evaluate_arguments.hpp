@@ -16,7 +16,7 @@ struct EvaluateArguments {
   std::string layout = "princeton";      ///< or "folders"
   std::vector<std::string> descriptors;  ///< SPEC[@DISTANCE]; empty: the default set
   std::string distance = "L1";           ///< Where a SPEC has none.
-  std::string metric = "fusion";         ///< fusion, learned or scaled
+  std::string metric = "scaled";         ///< fusion, learned or scaled
   bool svm = false;
   bool weighted = false;
   bool baseline = false;

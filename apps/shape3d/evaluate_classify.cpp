@@ -19,19 +19,27 @@ using learning::kUnlabelled;
 using learning::Labels;
 using learning::SvmOptions;
 
-// γ in units of one over the number of columns.
+// γ in units of one over the variance of all columns together.
 const learning::SvmGrid kGrid{{2.0, 8.0, 32.0}, {0.25, 0.5, 1.0, 2.0}};
 constexpr int kSearchFolds = 5;
 constexpr int kMostNestedSearches = 10;
 constexpr int kMostColumns = 100;
 
 // Options found by cross-validation on the rows that have a label.
-SvmOptions searched_options(const FeaturesView& X, const Labels& labels, bool probabilities,
-                            std::uint64_t seed, int threads) {
+SvmOptions searched_options(const FeaturesView& X, const Labels& labels, bool are_components,
+                            bool probabilities, std::uint64_t seed, int threads) {
   SvmOptions options;
   options.seed = seed;
   learning::SvmGrid grid = kGrid;
-  for (double& gamma : grid.gamma) gamma /= static_cast<double>(X.cols());
+  double variance = static_cast<double>(X.cols());  // of standardised columns together
+  if (are_components) {  // the small ones of which would be as large as the others
+    options.scaling = learning::ScalingKind::none;
+    const Eigen::RowVectorXd mean = X.colwise().mean();
+    variance = (X.rowwise() - mean).squaredNorm() / static_cast<double>(X.rows());
+  }
+  if (variance > 0.0) {
+    for (double& gamma : grid.gamma) gamma /= variance;
+  }
   const int folds = std::min<int>(kSearchFolds, static_cast<int>(labels.size()));
   const auto search = learning::search_svm(
       X, labels, learning::stratified_folds(labels, folds, seed), options, grid, threads);
@@ -70,13 +78,14 @@ Features in_columns(const Features& P, const std::vector<int>& classes, int coun
 // Long vectors are given in their principal components, found on what is trained on.
 Predictions trained(Features train, const Labels& labels, Features test, int classes,
                     bool probabilities, std::uint64_t seed, int threads) {
-  if (train.cols() > kMostColumns) {
+  const bool is_long = train.cols() > kMostColumns;
+  if (is_long) {
     const auto components = learning::principal_components(train, kMostColumns);
     train = components.apply(train);
     test = components.apply(test);
   }
   Predictions result;
-  result.options = searched_options(train, labels, probabilities, seed, threads);
+  result.options = searched_options(train, labels, is_long, probabilities, seed, threads);
   const auto svm = learning::Svm::train(train, labels, result.options, threads);
   result.labels = svm.predict(test, threads);
   if (probabilities) {
@@ -99,10 +108,11 @@ Predictions cross_validated(Features X, const Labels& labels,
   const int count = *std::max_element(folds.begin(), folds.end()) + 1;
   Predictions result;
   if (count > kMostNestedSearches) {
-    if (X.cols() > kMostColumns) {
+    const bool is_long = X.cols() > kMostColumns;
+    if (is_long) {
       X = learning::principal_components(X, kMostColumns).apply(X);
     }
-    result.options = searched_options(X, labels, probabilities, seed, threads);
+    result.options = searched_options(X, labels, is_long, probabilities, seed, threads);
     learning::SvmPredictions found =
         learning::cross_validate_svm(X, labels, folds, result.options, threads);
     result.labels = std::move(found.labels);

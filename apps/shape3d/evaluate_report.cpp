@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "common/text.hpp"
 
@@ -79,10 +80,14 @@ Json to_json(const ClassifierResult& one, const Evaluation& evaluation) {
   return json;
 }
 
+std::size_t classes_with_models(const DescribedPart& part) {
+  return std::set<int>(part.labels.begin(), part.labels.end()).size();
+}
+
 Json to_json(const DescribedPart& part) {
   Json json = {{"source", part.source},
                {"models", part.size()},
-               {"classes", part.classes.size()},
+               {"classes", classes_with_models(part)},
                {"left_out", part.left_out},
                {"notes", part.notes}};
   return json;
@@ -235,7 +240,7 @@ std::string list_of(const std::vector<std::string>& sentences) {
 std::string part_text(const char* name, const DescribedPart& part) {
   std::string text = std::string(name) + ": `" + part.source + "`, " +
                      std::to_string(part.size()) + " models in " +
-                     std::to_string(part.classes.size()) + " classes";
+                     std::to_string(classes_with_models(part)) + " classes";
   if (!part.left_out.empty()) {
     text += "; left out: " + std::to_string(part.left_out.size());
   }

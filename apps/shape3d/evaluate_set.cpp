@@ -158,10 +158,9 @@ std::vector<EvaluatedDescriptor> default_descriptors() {
     return EvaluatedDescriptor{name, Descriptor::parse(spec), distance, 1.0, false};
   };
   using learning::Distance;
-  return {part("HSH 496", "hsh:K=30,unit=yes", Distance::L1),
-          part("HSH Gram roots 816", "hsh:K=15,invariants=roots,unit=yes", Distance::L1),
-          part("CSM 512", "csm:R=32,K=15,weighted=yes,unit=yes", Distance::L1),
-          part("D2", "d2", Distance::L1), part("EGI", "egi:K=16", Distance::L1)};
+  return {part("panorama, surface axes", "panorama:axes=surface", Distance::L1),
+          part("panorama, normal axes", "panorama:axes=normals", Distance::L1),
+          part("HSH 496", "hsh:K=30,unit=yes", Distance::L1)};
 }
 
 std::vector<EvaluatedDescriptor> baseline_descriptors() {

@@ -148,7 +148,7 @@ struct Descriptor::State {
 
   static Eigen::VectorXd compute(const PanoramaParameters& p, const Eigen::Ref<const Points>& V,
                                  const Eigen::Ref<const Triangles>& F, int threads) {
-    return shaped(panorama_spectrum(V, F, p.options, threads), p.unit, p.power);
+    return shaped(shaped(panorama_spectrum(V, F, p.options, threads), false, p.power), p.unit, 1.0);
   }
 
   Eigen::VectorXd compute(const SphericalParameters&, const Eigen::Ref<const Points>&,

@@ -130,8 +130,8 @@ void visit_fields(PanoramaParameters& p, Visitor&& visit) {
   visit("axes", p.options.axes);
   visit("K", p.options.K);
   visit("size", p.options.size);
-  visit("unit", p.unit);
   visit("power", p.power);
+  visit("unit", p.unit);
 }
 
 template <class Visitor>

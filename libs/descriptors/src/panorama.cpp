@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 
 constexpr double kReach = 2.0;       // of the cylinder on either side of the centroid
 constexpr double kRadius = 3.0;      // of the cylinder
-constexpr double kRowsApart = 0.5;   // between samples, at most
+constexpr double kRowsApart = 1.0;   // length of an edge of the parts that are sampled, at most
 constexpr int kMostParts = 4096;     // of an edge of one triangle
 constexpr double kPi = 3.141592653589793;
 

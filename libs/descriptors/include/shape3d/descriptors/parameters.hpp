@@ -71,8 +71,8 @@ struct RandomParameters {
 /// `panorama`: Fourier amplitudes of panoramic views.
 struct PanoramaParameters {
   PanoramaOptions options;
-  bool unit = true;    ///< As of HshParameters.
-  double power = 0.5;  ///< As of HshParameters.
+  double power = 0.5;  ///< Each number x becomes x^power; 0.1 … 1.
+  bool unit = true;    ///< Then the vector is divided by its L2 norm.
 };
 
 /// Which spherical image.
