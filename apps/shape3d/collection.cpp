@@ -90,8 +90,7 @@ std::string model_path(const std::string& pattern, const std::string& id,
       continue;
     }
     const std::size_t end = pattern.find('}', i);
-    const std::string word =
-        pattern.substr(i + 1, end == std::string::npos ? end : end - i - 1);
+    const std::string word = pattern.substr(i + 1, end == std::string::npos ? end : end - i - 1);
     if (end != std::string::npos && word == "id") {
       path += id;
     } else if (end != std::string::npos && word.rfind("id/", 0) == 0) {
@@ -194,8 +193,7 @@ std::string class_file_of_level(const std::string& class_file, const std::string
   const fs::path given(class_file);
   const std::string part = part_of(class_file);
   const std::string folder_name = given.parent_path().filename().string();
-  if (folder_name == level ||
-      lower_case(given.stem().string()) == lower_case(level + part)) {
+  if (folder_name == level || lower_case(given.stem().string()) == lower_case(level + part)) {
     return class_file;
   }
   std::vector<fs::path> tried;

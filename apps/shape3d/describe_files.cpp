@@ -289,8 +289,7 @@ void describe_files(const DescribeArguments& arguments, const Settings& settings
   report["output"] = arguments.output;
   report["descriptors"] = Json::array();
   for (std::size_t s = 0; s < table.sets.size(); ++s) {
-    report["descriptors"].push_back(
-        {{"spec", table.sets[s].spec}, {"length", outcome.lengths[s]}});
+    report["descriptors"].push_back({{"spec", table.sets[s].spec}, {"length", outcome.lengths[s]}});
   }
   report["meshes"] = outcome.meshes;
   report["described"] = described;

@@ -26,15 +26,17 @@ void check(const EvaluateArguments& arguments) {
   }
   const bool is_cross = arguments.folds != 0 || arguments.leave_one_out;
   if (is_cross && !arguments.train_classes.empty()) {
-    throw UsageError("--train-cla is not used with --folds and --leave-one-out: they fit to the "
-                     "other folds of --test-cla");
+    throw UsageError(
+        "--train-cla is not used with --folds and --leave-one-out: they fit to the "
+        "other folds of --test-cla");
   }
   if (arguments.fold_by == "class" && arguments.folds == 0) {
     throw UsageError("--fold-by class: expected with --folds");
   }
   if (arguments.fold_by == "class" && (arguments.svm || arguments.weighted)) {
-    throw UsageError("--fold-by class: not used with --svm and --weighted, which cannot predict "
-                     "classes that they have not seen");
+    throw UsageError(
+        "--fold-by class: not used with --svm and --weighted, which cannot predict "
+        "classes that they have not seen");
   }
 }
 
@@ -74,8 +76,9 @@ std::string protocol_of(const EvaluateArguments& arguments, const EvaluatedSet& 
            std::to_string(set.train->size()) + " models).";
   }
   if (arguments.leave_one_out) {
-    return text + " What is fitted for a model has seen all others but this one; parameters of "
-                  "support vector machines were searched once, on all.";
+    return text +
+           " What is fitted for a model has seen all others but this one; parameters of "
+           "support vector machines were searched once, on all.";
   }
   return text + " What is fitted for a model has seen the other " +
          std::to_string(arguments.folds - 1) + " of " + std::to_string(arguments.folds) +
@@ -161,9 +164,8 @@ void evaluate(const EvaluateArguments& arguments, const Settings& settings) {
     result.chance = learning::chance_level(group.labels);
     weighted.emplace_back();
     if (arguments.svm || arguments.weighted) {
-      for (ClassificationResult& one : classifications(arguments, set, group, folds,
-                                                       arguments.weighted, progress,
-                                                       settings.threads)) {
+      for (ClassificationResult& one : classifications(
+               arguments, set, group, folds, arguments.weighted, progress, settings.threads)) {
         if (arguments.weighted && one.probabilities.size() > 0) {
           for (const std::size_t place : weighted_places(set, methods)) {
             for (RetrievalMethod& each : weighted_methods(methods[place], one)) {
@@ -219,12 +221,14 @@ void add_evaluate(CLI::App& app, Settings& settings) {
       ->required()
       ->type_name("DIR");
   command
-      ->add_option("--train-cla", arguments->train_classes,
-                   "Class file (.cla) of the models that things are fitted to; may be left out when "
-                   "nothing is")
+      ->add_option(
+          "--train-cla", arguments->train_classes,
+          "Class file (.cla) of the models that things are fitted to; may be left out when "
+          "nothing is")
       ->type_name("FILE");
-  command->add_option("--test-cla", arguments->test_classes,
-                      "Class file of the models that are evaluated")
+  command
+      ->add_option("--test-cla", arguments->test_classes,
+                   "Class file of the models that are evaluated")
       ->type_name("FILE");
   command
       ->add_option("--classes", arguments->level,
@@ -250,8 +254,7 @@ void add_evaluate(CLI::App& app, Settings& settings) {
                    "Without it, the set that finds most")
       ->allow_extra_args(false)
       ->type_name("SPEC[@DISTANCE]");
-  command
-      ->add_option("--distance", arguments->distance, "Distance where a SPEC has none (L1)")
+  command->add_option("--distance", arguments->distance, "Distance where a SPEC has none (L1)")
       ->type_name("NAME");
   command
       ->add_option("--metric", arguments->metric,
@@ -274,8 +277,7 @@ void add_evaluate(CLI::App& app, Settings& settings) {
       ->type_name("N");
   command->add_flag("--leave-one-out", arguments->leave_one_out, "As many folds as models");
   command
-      ->add_option("--fold-by", arguments->fold_by,
-                   "model, or class: whole classes are held out")
+      ->add_option("--fold-by", arguments->fold_by, "model, or class: whole classes are held out")
       ->check(CLI::IsMember({"model", "class"}))
       ->type_name("WHAT");
   command->add_option("--seed", arguments->seed, "Of the folds (1)")->type_name("N");
@@ -288,10 +290,12 @@ void add_evaluate(CLI::App& app, Settings& settings) {
   command->add_flag("--restart", arguments->restart, "Describe all models anew");
   command->footer(
       "Examples:\n"
-      "  shape3d evaluate --db-dir psb/db --train-cla base/train.cla --test-cla base/test.cla -o report\n"
+      "  shape3d evaluate --db-dir psb/db --train-cla base/train.cla --test-cla base/test.cla -o "
+      "report\n"
       "  shape3d evaluate --db-dir psb/db --train-cla base/train.cla --test-cla base/test.cla \\\n"
       "    --classes coarse2 --svm --weighted --baseline -o report\n"
-      "  shape3d evaluate --db-dir shrec11 --test-cla train.cla --path '{class}/train/T{id}.obj' -o "
+      "  shape3d evaluate --db-dir shrec11 --test-cla train.cla --path '{class}/train/T{id}.obj' "
+      "-o "
       "report\n"
       "  shape3d evaluate --db-dir modelnet10 --layout folders -o report");
   command->callback([arguments, &settings] {

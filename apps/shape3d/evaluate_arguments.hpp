@@ -20,7 +20,7 @@ struct EvaluateArguments {
   bool svm = false;
   bool weighted = false;
   bool baseline = false;
-  int folds = 0;              ///< Cross-validation on the test part; 0: none.
+  int folds = 0;  ///< Cross-validation on the test part; 0: none.
   bool leave_one_out = false;
   std::string fold_by = "model";  ///< or "class"
   std::uint64_t seed = 1;

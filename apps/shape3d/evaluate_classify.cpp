@@ -100,11 +100,10 @@ Features chosen_rows(const FeaturesView& X, const std::vector<Index>& rows) {
   return result;
 }
 
-// Each fold by a machine whose parameters, and principal components, come from the other folds, too;
-// where there are too many folds for that, these come from all models.
-Predictions cross_validated(Features X, const Labels& labels,
-                            const std::vector<int>& folds, int classes, bool probabilities,
-                            std::uint64_t seed, int threads) {
+// Each fold by a machine whose parameters, and principal components, come from the other folds,
+// too; where there are too many folds for that, these come from all models.
+Predictions cross_validated(Features X, const Labels& labels, const std::vector<int>& folds,
+                            int classes, bool probabilities, std::uint64_t seed, int threads) {
   const int count = *std::max_element(folds.begin(), folds.end()) + 1;
   Predictions result;
   if (count > kMostNestedSearches) {
@@ -116,7 +115,8 @@ Predictions cross_validated(Features X, const Labels& labels,
     learning::SvmPredictions found =
         learning::cross_validate_svm(X, labels, folds, result.options, threads);
     result.labels = std::move(found.labels);
-    if (probabilities) result.probabilities = in_columns(found.probabilities, found.classes, classes);
+    if (probabilities)
+      result.probabilities = in_columns(found.probabilities, found.classes, classes);
     return result;
   }
   result.labels.assign(labels.size(), kUnlabelled);
@@ -188,9 +188,8 @@ ClassNames joint_classes(const EvaluatedSet& set) {
 
 std::vector<ClassificationResult> classifications(const EvaluateArguments& arguments,
                                                   const EvaluatedSet& set, const LabelGroup& group,
-                                                  const std::vector<int>& folds,
-                                                  bool probabilities, Progress& progress,
-                                                  int threads) {
+                                                  const std::vector<int>& folds, bool probabilities,
+                                                  Progress& progress, int threads) {
   const ClassNames names = joint_classes(set);
   const auto classes = static_cast<int>(names.names.size());
   Labels train_labels = names.train_labels;
@@ -206,11 +205,10 @@ std::vector<ClassificationResult> classifications(const EvaluateArguments& argum
     progress.stage("training support vector machines on " + input.name);
     progress.update(static_cast<double>(i) / static_cast<double>(inputs.size()));
     const bool wanted = probabilities && i + 1 == inputs.size();
-    Predictions found =
-        set.train ? trained(input.train, train_labels, input.test, classes, wanted,
-                            arguments.seed, threads)
-                  : cross_validated(input.test, group.labels, folds, classes, wanted,
-                                    arguments.seed, threads);
+    Predictions found = set.train ? trained(input.train, train_labels, input.test, classes, wanted,
+                                            arguments.seed, threads)
+                                  : cross_validated(input.test, group.labels, folds, classes,
+                                                    wanted, arguments.seed, threads);
     results.push_back({input.name, input.baseline, found.options.C, found.options.gamma,
                        std::move(found.labels), std::move(found.probabilities)});
   }

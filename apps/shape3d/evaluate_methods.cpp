@@ -75,8 +75,7 @@ std::vector<double> joint_units(const EvaluatedSet& set,
   for (const std::size_t d : descriptors) {
     const Features& X = (set.train ? *set.train : set.test).vectors[d];
     const Eigen::RowVectorXd mean = X.colwise().mean();
-    units.push_back(
-        std::sqrt((X.rowwise() - mean).squaredNorm() / static_cast<double>(X.rows())));
+    units.push_back(std::sqrt((X.rowwise() - mean).squaredNorm() / static_cast<double>(X.rows())));
   }
   return units;
 }
@@ -97,8 +96,7 @@ Features joined_vectors(const EvaluatedSet& set, const DescribedPart& part,
 }
 
 std::vector<LabelGroup> label_groups(const DescribedPart& part) {
-  std::vector<LabelGroup> groups{
-      {"all classes", part.labels, -1}};
+  std::vector<LabelGroup> groups{{"all classes", part.labels, -1}};
   const auto place =
       std::find(part.classes.begin(), part.classes.end(), learning::kMiscellaneousClass);
   if (place == part.classes.end()) return groups;
@@ -174,7 +172,8 @@ std::vector<RetrievalMethod> retrieval_methods(const EvaluateArguments& argument
   const auto scaled = [](const RetrievalMethod& method) {
     RetrievalMethod result;
     result.name = method.name + ", scaled";
-    result.explanation = method.explanation + "; in units of the mean distances of both models to their " +
+    result.explanation = method.explanation +
+                         "; in units of the mean distances of both models to their " +
                          std::to_string(kScalingNeighbours) + " nearest";
     result.D = learning::locally_scaled(method.D, kScalingNeighbours);
     return result;

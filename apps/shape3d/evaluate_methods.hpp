@@ -31,18 +31,18 @@ struct RetrievalMethod {
 
 /// Models predicted by a support vector machine.
 struct ClassificationResult {
-  std::string name;                   ///< Of the descriptor.
+  std::string name;  ///< Of the descriptor.
   bool baseline = false;
-  double C = 0.0, gamma = 0.0;        ///< Of the last machine that was trained.
-  learning::Labels predicted;         ///< In joint_classes().
-  learning::Features probabilities;   ///< Models by joint_classes(); may be empty.
+  double C = 0.0, gamma = 0.0;       ///< Of the last machine that was trained.
+  learning::Labels predicted;        ///< In joint_classes().
+  learning::Features probabilities;  ///< Models by joint_classes(); may be empty.
 };
 
 /// Which labels are evaluated: all, or without the miscellaneous class.
 struct LabelGroup {
   std::string name;
   learning::Labels labels;  ///< kUnlabelled: in the library, but no query.
-  int without = -1;  ///< The class that is left out; −1: none.
+  int without = -1;         ///< The class that is left out; −1: none.
 };
 
 /// All classes; and when the class "-1" is there and has members, also without it.
@@ -66,8 +66,8 @@ struct ClassNames {
 };
 [[nodiscard]] ClassNames joint_classes(const EvaluatedSet& set);
 
-/// Root mean squares of the vectors of each descriptor about their mean, in the train part where there
-/// is one: the units in which descriptors stand beside each other.
+/// Root mean squares of the vectors of each descriptor about their mean, in the train part where
+/// there is one: the units in which descriptors stand beside each other.
 [[nodiscard]] std::vector<double> joint_units(const EvaluatedSet& set,
                                               const std::vector<std::size_t>& descriptors);
 

@@ -32,8 +32,8 @@ ChartAxis share_axis(const std::string& title) {
   return axis;
 }
 
-// The strongest methods last: their order in tables; at most as many as there are colors, those that
-// combine descriptors first.
+// The strongest methods last: their order in tables; at most as many as there are colors, those
+// that combine descriptors first.
 std::vector<const MethodResult*> drawn_methods(const GroupResult& group) {
   std::vector<const MethodResult*> methods;
   for (auto one = group.retrieval.rbegin(); one != group.retrieval.rend(); ++one) {
@@ -42,8 +42,8 @@ std::vector<const MethodResult*> drawn_methods(const GroupResult& group) {
   return methods;
 }
 
-ChartSeries curve(const std::string& name, const learning::RetrievalMeans& means,
-                  std::size_t place, bool is_baseline) {
+ChartSeries curve(const std::string& name, const learning::RetrievalMeans& means, std::size_t place,
+                  bool is_baseline) {
   ChartSeries series;
   series.label = name;
   series.color = kColors[place % kColors.size()];
@@ -139,8 +139,7 @@ Raster confusion_picture(const ClassifierResult& one, const Evaluation& evaluati
   const int text = std::clamp(cell / 3, 8, 20);
   int label = 0;
   for (const Eigen::Index c : shown) {
-    label = std::max(
-        label, text_width(evaluation.class_names[static_cast<std::size_t>(c)], text));
+    label = std::max(label, text_width(evaluation.class_names[static_cast<std::size_t>(c)], text));
   }
   label += 24;
   const int head = 70;
@@ -151,9 +150,10 @@ Raster confusion_picture(const ClassifierResult& one, const Evaluation& evaluati
             16, TextAlign::centre);
   for (int row = 0; row < n; ++row) {
     const int sum = std::max(1, counts.row(shown[static_cast<std::size_t>(row)]).sum());
-    draw_text(raster,
-              evaluation.class_names[static_cast<std::size_t>(shown[static_cast<std::size_t>(row)])],
-              label - 10, head + row * cell + cell / 2 + text / 3, text, TextAlign::right);
+    draw_text(
+        raster,
+        evaluation.class_names[static_cast<std::size_t>(shown[static_cast<std::size_t>(row)])],
+        label - 10, head + row * cell + cell / 2 + text / 3, text, TextAlign::right);
     for (int c = 0; c < n; ++c) {
       const int count =
           counts(shown[static_cast<std::size_t>(row)], shown[static_cast<std::size_t>(c)]);
@@ -194,8 +194,8 @@ std::vector<NamedPicture> draw_evaluation(const Evaluation& evaluation) {
   if (!evaluation.groups.front().classification.empty()) {
     pictures.push_back({"correct-classification.png", draw_charts({rate_chart(evaluation)})});
     pictures.push_back(
-        {"confusion.png", to_png(confusion_picture(evaluation.groups.front().classification.back(),
-                                                   evaluation))});
+        {"confusion.png",
+         to_png(confusion_picture(evaluation.groups.front().classification.back(), evaluation))});
   }
   return pictures;
 }

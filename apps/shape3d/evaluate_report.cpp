@@ -107,7 +107,8 @@ class Table {
     text_ += '|';
     for (std::string& cell : cells) {
       std::string safe;  // a bar would end the cell
-      for (const char c : printable(cell)) safe += c == '|' ? std::string("\\|") : std::string(1, c);
+      for (const char c : printable(cell))
+        safe += c == '|' ? std::string("\\|") : std::string(1, c);
       text_ += ' ' + safe + " |";
     }
     text_ += '\n';
@@ -147,8 +148,8 @@ std::string retrieval_table(const GroupResult& group) {
                percent(m.first_tier), percent(m.second_tier), percent(m.e_measure), percent(m.dcg),
                percent(m.average_precision), percent(means.precision[1])});
   }
-  table.add({"chance", "", percent(group.chance.nearest_neighbour), percent(group.chance.first_tier),
-             percent(group.chance.second_tier), "", "", "", ""});
+  table.add({"chance", "", percent(group.chance.nearest_neighbour),
+             percent(group.chance.first_tier), percent(group.chance.second_tier), "", "", "", ""});
   return table.text();
 }
 
@@ -238,9 +239,8 @@ std::string list_of(const std::vector<std::string>& sentences) {
 }
 
 std::string part_text(const char* name, const DescribedPart& part) {
-  std::string text = std::string(name) + ": `" + part.source + "`, " +
-                     std::to_string(part.size()) + " models in " +
-                     std::to_string(classes_with_models(part)) + " classes";
+  std::string text = std::string(name) + ": `" + part.source + "`, " + std::to_string(part.size()) +
+                     " models in " + std::to_string(classes_with_models(part)) + " classes";
   if (!part.left_out.empty()) {
     text += "; left out: " + std::to_string(part.left_out.size());
   }
@@ -300,8 +300,10 @@ std::string to_markdown(const Evaluation& evaluation) {
   text += part_text("Test", set.test);
   text +=
       "NN: the nearest is of the class. Tiers: share of the class among the |C| − 1 and 2(|C| − 1) "
-      "nearest. E: of the first 32. DCG: discounted cumulative gain over that of a perfect ranking. "
-      "MAP: mean average precision. All in percent; ties in the order of the class file. Classes of "
+      "nearest. E: of the first 32. DCG: discounted cumulative gain over that of a perfect "
+      "ranking. "
+      "MAP: mean average precision. All in percent; ties in the order of the class file. Classes "
+      "of "
       "one model have no query. Chance: the mean over all orders.\n\n";
   for (const GroupResult& group : evaluation.groups) {
     const std::string title = group_title(group, evaluation);
@@ -309,8 +311,8 @@ std::string to_markdown(const Evaluation& evaluation) {
             "\nMeans over the classes:\n\n" + macro_table(group) +
             "\nPrecision at recalls, means over the queries whose class is large enough to have "
             "that recall:\n\n" +
-            curve_table(group) + "\nClasses, by " + group.retrieval.back().method->name +
-            ":\n\n" + class_table(group, evaluation) + "\n";
+            curve_table(group) + "\nClasses, by " + group.retrieval.back().method->name + ":\n\n" +
+            class_table(group, evaluation) + "\n";
     if (group.classification.empty()) continue;
     text += "## Classification, " + title + "\n\n" + classification_table(group);
     const int untrained = group.classification.front().untrained;

@@ -32,7 +32,7 @@ struct GroupResult {
 struct Evaluation {
   const EvaluateArguments* arguments = nullptr;
   const EvaluatedSet* set = nullptr;
-  std::string protocol;  ///< Sentences: who looks for what, what is fitted to what.
+  std::string protocol;                  ///< Sentences: who looks for what, what is fitted to what.
   std::vector<std::string> class_names;  ///< joint_classes()
   std::vector<GroupResult> groups;
   double seconds = 0.0;  ///< After describing.

@@ -24,10 +24,10 @@ struct Parts {
 };
 
 Parts parts_of_folders(const EvaluateArguments& arguments) {
-  for (const auto& [option, value] : {std::pair{"--train-cla", arguments.train_classes},
-                                      std::pair{"--test-cla", arguments.test_classes},
-                                      std::pair{"--classes", arguments.level},
-                                      std::pair{"--path", arguments.path_pattern}}) {
+  for (const auto& [option, value] :
+       {std::pair{"--train-cla", arguments.train_classes},
+        std::pair{"--test-cla", arguments.test_classes}, std::pair{"--classes", arguments.level},
+        std::pair{"--path", arguments.path_pattern}}) {
     if (!value.empty()) throw UsageError(std::string(option) + ": not used with --layout folders");
   }
   FolderCollections folders = folder_collections(arguments.folder);
@@ -88,8 +88,7 @@ DescribedPart described_part(const Collection& collection, const FeatureTable& t
   for (const Collection::Model& model : collection.models) {
     const auto row = rows.find(model.path);
     if (row == rows.end()) {
-      part.left_out.push_back("model " + model.id + ": " + model.path + ": " +
-                              reasons[model.path]);
+      part.left_out.push_back("model " + model.id + ": " + model.path + ": " + reasons[model.path]);
       continue;
     }
     part.ids.push_back(model.id);
@@ -194,8 +193,8 @@ EvaluatedSet described_set(const EvaluateArguments& arguments, const Settings& s
       throw UsageError("--descriptor " + one.name + " is given twice");
     }
   }
-  const Parts parts = arguments.layout == "folders" ? parts_of_folders(arguments)
-                                                    : parts_of_class_files(arguments);
+  const Parts parts =
+      arguments.layout == "folders" ? parts_of_folders(arguments) : parts_of_class_files(arguments);
   require_apart(parts);
 
   // One column of the table for each different descriptor.

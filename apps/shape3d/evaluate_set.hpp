@@ -38,10 +38,10 @@ struct DescribedPart {
   std::string source;  ///< Class file or folder.
   std::vector<std::string> classes;
   std::vector<std::string> ids;
-  learning::Labels labels;                   ///< Of `classes`.
-  std::vector<learning::Features> vectors;   ///< One matrix a descriptor, a row a model.
-  std::vector<std::string> left_out;         ///< Sentences: models without file, or not described.
-  std::vector<std::string> notes;            ///< Sentences: classes of one member, of none.
+  learning::Labels labels;                  ///< Of `classes`.
+  std::vector<learning::Features> vectors;  ///< One matrix a descriptor, a row a model.
+  std::vector<std::string> left_out;        ///< Sentences: models without file, or not described.
+  std::vector<std::string> notes;           ///< Sentences: classes of one member, of none.
 
   [[nodiscard]] std::size_t size() const { return ids.size(); }
 };
@@ -51,12 +51,12 @@ struct EvaluatedSet {
   std::vector<EvaluatedDescriptor> descriptors;
   std::optional<DescribedPart> train;
   DescribedPart test;
-  double describing = 0.0;      ///< Seconds.
+  double describing = 0.0;              ///< Seconds.
   std::size_t described = 0, kept = 0;  ///< Meshes now, and from an earlier run.
 };
 
-/// Finds the models and describes them; vectors are kept in FOLDER/vectors.h5 of the report, so that
-/// a second run, or one after an interruption, goes on from them.
+/// Finds the models and describes them; vectors are kept in FOLDER/vectors.h5 of the report, so
+/// that a second run, or one after an interruption, goes on from them.
 [[nodiscard]] EvaluatedSet described_set(const EvaluateArguments& arguments,
                                          const Settings& settings);
 

@@ -19,10 +19,10 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kReach = 2.0;       // of the cylinder on either side of the centroid
-constexpr double kRadius = 3.0;      // of the cylinder
-constexpr double kRowsApart = 1.0;   // length of an edge of the parts that are sampled, at most
-constexpr int kMostParts = 4096;     // of an edge of one triangle
+constexpr double kReach = 2.0;      // of the cylinder on either side of the centroid
+constexpr double kRadius = 3.0;     // of the cylinder
+constexpr double kRowsApart = 1.0;  // length of an edge of the parts that are sampled, at most
+constexpr int kMostParts = 4096;    // of an edge of one triangle
 constexpr double kPi = 3.141592653589793;
 
 void check(const PanoramaOptions& options) {
@@ -130,9 +130,8 @@ void add_triangle(const Corners& k, double spacing, const Matrix3d& axes, Panora
   const Vector3d cross = k.cross();
   const double twice = cross.norm();
   if (twice == 0.0) return;
-  const double longest =
-      std::sqrt(std::max({(k.b - k.a).squaredNorm(), (k.c - k.b).squaredNorm(),
-                          (k.a - k.c).squaredNorm()}));
+  const double longest = std::sqrt(
+      std::max({(k.b - k.a).squaredNorm(), (k.c - k.b).squaredNorm(), (k.a - k.c).squaredNorm()}));
   const int parts = static_cast<int>(std::min<double>(kMostParts, std::ceil(longest / spacing)));
   const Vector3d normal = axes * (cross / twice), origin = axes * k.a;
   const Vector3d u = axes * (k.b - k.a) / parts, v = axes * (k.c - k.a) / parts;
@@ -162,8 +161,8 @@ Eigen::MatrixXcd turns(int K, int n) {
 }  // namespace
 
 PanoramaImages panorama_images(const Eigen::Ref<const Points>& V,
-                               const Eigen::Ref<const Triangles>& F,
-                               const PanoramaOptions& options, int threads) {
+                               const Eigen::Ref<const Triangles>& F, const PanoramaOptions& options,
+                               int threads) {
   check(options);
   threads = detail::resolve_threads(threads);
   const Frame frame = surface_frame(V, F, Centre::area, Scale::rms, 1.0);

@@ -105,9 +105,9 @@ class Parser {
 
  private:
   void read_class(int c, int classes) {
-    const auto words = lines_.next(3, "class " + std::to_string(c + 1) + " of " +
-                                          std::to_string(classes) +
-                                          ": name, parent, number of models");
+    const auto words =
+        lines_.next(3, "class " + std::to_string(c + 1) + " of " + std::to_string(classes) +
+                           ": name, parent, number of models");
     Classification::Class one;
     one.name = words[0];
     one.full_name = one.name;
@@ -136,10 +136,10 @@ class Parser {
                                        std::to_string(count) + " of class " + quoted(name));
     const auto [place, is_new] = of_model_.insert({std::string(id[0]), c});
     if (!is_new) {
-      lines_.fail(
-          "has model " + quoted(id[0]) + ", which class " +
-              quoted(result_.classes[static_cast<std::size_t>(place->second)].full_name) + " has",
-          "each model once");
+      lines_.fail("has model " + quoted(id[0]) + ", which class " +
+                      quoted(result_.classes[static_cast<std::size_t>(place->second)].full_name) +
+                      " has",
+                  "each model once");
     }
     result_.models.push_back({place->first, c});
   }

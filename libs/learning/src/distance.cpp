@@ -97,12 +97,13 @@ Eigen::MatrixXd distances(const FeaturesView& X, const FeaturesView& Y, Distance
   require_finite("X", X);
   require_finite("Y", Y);
   Eigen::MatrixXd D(X.rows(), Y.rows());
-  detail::parallel_blocks(
-      Y.rows(), 8, detail::resolve_threads(threads), [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t j = first; j < last; ++j) {
-          for (Eigen::Index i = 0; i < X.rows(); ++i) D(i, j) = of_two(X.row(i), Y.row(j), kind);
-        }
-      });
+  detail::parallel_blocks(Y.rows(), 8, detail::resolve_threads(threads),
+                          [&](std::int64_t first, std::int64_t last) {
+                            for (std::int64_t j = first; j < last; ++j) {
+                              for (Eigen::Index i = 0; i < X.rows(); ++i)
+                                D(i, j) = of_two(X.row(i), Y.row(j), kind);
+                            }
+                          });
   return D;
 }
 

@@ -142,8 +142,8 @@ LinearMetric learn_linear_metric(const FeaturesView& X, const Labels& labels,
   const MatrixXd W = within_covariance(centred * directions, labels);
   const Index k = W.rows();
   const double mean_variance = std::max(W.trace() / static_cast<double>(k), 1e-300);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(
-      W + options.shrinkage * mean_variance * MatrixXd::Identity(k, k));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(W + options.shrinkage * mean_variance *
+                                                               MatrixXd::Identity(k, k));
   metric.transform = solver.operatorInverseSqrt() * directions.transpose();
   return metric;
 }

@@ -90,9 +90,12 @@ std::array<double, kRecallSteps> curve_of(const std::vector<int>& ranks) {
 }
 
 constexpr std::array<double RetrievalMeasures::*, 6> kMembers{
-    &RetrievalMeasures::nearest_neighbour, &RetrievalMeasures::first_tier,
-    &RetrievalMeasures::second_tier,       &RetrievalMeasures::e_measure,
-    &RetrievalMeasures::dcg,               &RetrievalMeasures::average_precision};
+    &RetrievalMeasures::nearest_neighbour,
+    &RetrievalMeasures::first_tier,
+    &RetrievalMeasures::second_tier,
+    &RetrievalMeasures::e_measure,
+    &RetrievalMeasures::dcg,
+    &RetrievalMeasures::average_precision};
 
 // Sums that become means; NaN precisions are passed over.
 class Mean {
@@ -196,7 +199,8 @@ RetrievalResult evaluate_retrieval(const Eigen::Ref<const Eigen::MatrixXd>& D, c
   const auto queries = static_cast<int>(result.queries.size());
   for (const Mean& mean : classes) {
     result.classes.push_back(mean.mean(mean.count()));
-    if (mean.count() > 0) macro.add(result.classes.back().measures, result.classes.back().precision);
+    if (mean.count() > 0)
+      macro.add(result.classes.back().measures, result.classes.back().precision);
   }
   result.micro = micro.mean(queries);
   result.macro = macro.mean(queries);

@@ -92,8 +92,9 @@ TEST_CASE("the class-weighted distance refuses what does not fit") {
                     "P has 2 rows, expected 1 as D has");
   CHECK_THROWS_WITH(class_weighted(D, P, Features::Zero(1, 2)),
                     "Q has 2 columns, expected 1 as P has");
-  CHECK_THROWS_WITH(class_weighted(D, P * 1.1, P),
-                    "row 0 of P is no probabilities, expected numbers from 0 whose sum is at most 1");
+  CHECK_THROWS_WITH(
+      class_weighted(D, P * 1.1, P),
+      "row 0 of P is no probabilities, expected numbers from 0 whose sum is at most 1");
   CHECK_THROWS_WITH(hard_probabilities({3}, 3),
                     "label 0 is 3, expected less than 3, the number of classes");
   CHECK_THROWS_WITH(hard_probabilities({}, -1), "classes is -1, expected 0 or more");
@@ -118,8 +119,7 @@ TEST_CASE("fusion adds distances in their units") {
   CHECK_THROWS_WITH(fused({{D, -1.0, 1.0}}), "unit is -1, expected 0 or more");
   CHECK_THROWS_WITH(fused({{D, 1.0, -1.0}}), "weight is -1, expected 0 or more");
   CHECK_THROWS_WITH(fused({{D, 1.0, 0.0}}), "sum of weights is 0, expected more than 0");
-  CHECK_THROWS_WITH(mean_distance(D.topRows(2)),
-                    "D is 2 by 15, expected as many rows as columns");
+  CHECK_THROWS_WITH(mean_distance(D.topRows(2)), "D is 2 by 15, expected as many rows as columns");
 }
 
 TEST_CASE("local scaling makes neighbourhoods of all densities alike") {

@@ -27,8 +27,7 @@ RetrievalMeasures by_definition(const Eigen::MatrixXd& D, const Labels& labels, 
     int before = 0;
     for (int other = 0; other < n; ++other) {
       if (other == query || other == item) continue;
-      if (D(query, other) < D(query, item) ||
-          (D(query, other) == D(query, item) && other < item)) {
+      if (D(query, other) < D(query, item) || (D(query, other) == D(query, item) && other < item)) {
         ++before;
       }
     }
@@ -36,8 +35,8 @@ RetrievalMeasures by_definition(const Eigen::MatrixXd& D, const Labels& labels, 
   };
   std::vector<int> ranks;
   for (int item = 0; item < n; ++item) {
-    if (item != query && labels[static_cast<std::size_t>(item)] ==
-                             labels[static_cast<std::size_t>(query)]) {
+    if (item != query &&
+        labels[static_cast<std::size_t>(item)] == labels[static_cast<std::size_t>(query)]) {
       ranks.push_back(rank(item));
     }
   }
@@ -100,9 +99,9 @@ TEST_CASE("precision is interpolated between hits, and absent below the first re
   REQUIRE(found.queries.size() == 1);
   const auto& p = found.queries[0].precision;
   for (int k = 0; k < 4; ++k) CHECK(std::isnan(p[static_cast<std::size_t>(k)]));  // below 1/4
-  CHECK(p[4] == 1.0);                                // recall 1/4
-  CHECK(p[5] == Approx(1 + 0.2 * (2 / 4.0 - 1)));    // 0.3: a fifth of the way to 1/2
-  CHECK(p[9] == 0.5);                                // 1/2
+  CHECK(p[4] == 1.0);                                                             // recall 1/4
+  CHECK(p[5] == Approx(1 + 0.2 * (2 / 4.0 - 1)));  // 0.3: a fifth of the way to 1/2
+  CHECK(p[9] == 0.5);                              // 1/2
   CHECK(p[12] == Approx(0.5 + 0.6 * (3 / 5.0 - 0.5)));
   CHECK(p[14] == Approx(3 / 5.0));
   CHECK(p[19] == Approx(4 / 10.0));
@@ -132,8 +131,7 @@ TEST_CASE("measures agree with their definitions on random distances with ties")
     CHECK(query.measures.average_precision == Approx(expected.average_precision));
     sum.dcg += expected.dcg;
   }
-  CHECK(found.micro.measures.dcg ==
-        Approx(sum.dcg / static_cast<double>(found.queries.size())));
+  CHECK(found.micro.measures.dcg == Approx(sum.dcg / static_cast<double>(found.queries.size())));
   RetrievalOptions options;
   options.threads = 3;
   CHECK(evaluate_retrieval(D, labels, options).micro.measures.dcg == found.micro.measures.dcg);

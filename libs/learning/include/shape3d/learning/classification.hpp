@@ -16,10 +16,10 @@ inline constexpr std::string_view kMiscellaneousClass = "-1";
 /// A classification of models: a tree of classes, and the models of each.
 struct Classification {
   struct Class {
-    std::string name;        ///< "biplane".
-    std::string full_name;   ///< With its parents: "aircraft/airplane/biplane".
-    int parent = -1;         ///< Place in `classes`; −1: none.
-    int models = 0;          ///< Of its own, without those of classes below; may be 0.
+    std::string name;       ///< "biplane".
+    std::string full_name;  ///< With its parents: "aircraft/airplane/biplane".
+    int parent = -1;        ///< Place in `classes`; −1: none.
+    int models = 0;         ///< Of its own, without those of classes below; may be 0.
   };
   struct Model {
     std::string id;

@@ -16,7 +16,7 @@ enum class Distance {
   L2,           ///< √Σ (x_i − y_i)²
   L2_squared,   ///< Σ (x_i − y_i)²: (5.17)
   chi_squared,  ///< Σ (x_i − y_i)² / (|x_i| + |y_i|); 0 where both are 0. For histograms.
-  cosine        ///< 1 − x·y / (‖x‖ ‖y‖), 0 … 2; 1 when one of them is 0, 0 when both are.
+  cosine  ///< 1 − x·y / (‖x‖ ‖y‖), 0 … 2; 1 when one of them is 0, 0 when both are.
 };
 
 inline constexpr std::string_view kDistanceNames = "L1, L2, L2_squared, chi_squared or cosine";
@@ -35,8 +35,8 @@ inline constexpr std::string_view kDistanceNames = "L1, L2, L2_squared, chi_squa
 /// Distances of each row of X to each row of Y, #X by #Y. Equal rows have distance 0 exactly (but
 /// for cosine: rounding), and D of (X, X) is symmetric, bit for bit.
 /// @param threads  0: all processors; no matter for the result.
-/// @throws std::invalid_argument  X and Y have different numbers of columns; a number is not finite.
-/// O(#X #Y n).
+/// @throws std::invalid_argument  X and Y have different numbers of columns; a number is not
+/// finite. O(#X #Y n).
 [[nodiscard]] SHAPE3D_LEARNING_EXPORT Eigen::MatrixXd distances(const FeaturesView& X,
                                                                 const FeaturesView& Y,
                                                                 Distance kind, int threads = 0);

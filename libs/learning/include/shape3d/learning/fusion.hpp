@@ -19,8 +19,9 @@ namespace shape3d::learning {
 
 /// One descriptor of a fusion.
 struct FusionPart {
-  Eigen::MatrixXd D;    ///< Distances; all parts of one size.
-  double unit = 1.0;    ///< mean_distance() of a collection; 0: the part says nothing and is left out.
+  Eigen::MatrixXd D;  ///< Distances; all parts of one size.
+  double unit =
+      1.0;  ///< mean_distance() of a collection; 0: the part says nothing and is left out.
   double weight = 1.0;  ///< ≥ 0.
 };
 
@@ -29,8 +30,8 @@ struct FusionPart {
 /// not finite; all weights are 0.
 [[nodiscard]] SHAPE3D_LEARNING_EXPORT Eigen::MatrixXd fused(const std::vector<FusionPart>& parts);
 
-/// Distances in the units of their neighbourhoods: D_ij / √(s_i s_j), s_i the mean distance of item i
-/// to its k nearest others. Items in dense parts of a collection then are not the neighbours of
+/// Distances in the units of their neighbourhoods: D_ij / √(s_i s_j), s_i the mean distance of item
+/// i to its k nearest others. Items in dense parts of a collection then are not the neighbours of
 /// nobody, and items in the middle of it not those of everybody. No labels are needed.
 /// (Zelnik-Manor and Perona 2004, as a distance.)
 /// @param D  n by n, symmetric. @param k  1 … n − 1; a larger one stands for n − 1.

@@ -14,8 +14,8 @@ struct LinearMetricOptions {
   /// Largest number of principal components that are looked at; 0: as many as there are.
   int components = 100;
   /// Share of the mean variance that is added to the spread within classes; > 0. The larger, the
-  /// nearer is the metric to that of the principal components themselves, and the less it depends on
-  /// which classes it was learnt from.
+  /// nearer is the metric to that of the principal components themselves, and the less it depends
+  /// on which classes it was learnt from.
   double shrinkage = 1.0;
 };
 
@@ -44,8 +44,8 @@ struct LinearMetric {
 [[nodiscard]] SHAPE3D_LEARNING_EXPORT LinearMetric learn_linear_metric(
     const FeaturesView& X, const Labels& labels, const LinearMetricOptions& options = {});
 
-/// Principal components as a linear map: y = E^T (x − mean), the columns of E the directions of most
-/// variance, at most `most` of them and at most the rank; 0: all.
+/// Principal components as a linear map: y = E^T (x − mean), the columns of E the directions of
+/// most variance, at most `most` of them and at most the rank; 0: all.
 /// @throws std::invalid_argument  X has no row; a number is not finite; `most` is negative.
 /// O(min(#X, n)² max(#X, n)).
 [[nodiscard]] SHAPE3D_LEARNING_EXPORT LinearMetric principal_components(const FeaturesView& X,

@@ -44,9 +44,9 @@ struct RetrievalMeans {
 };
 
 struct RetrievalResult {
-  std::vector<QueryMeasures> queries;  ///< In the order of the items.
-  RetrievalMeans micro;                ///< Over the queries.
-  RetrievalMeans macro;                ///< Over the classes that have queries, of their means.
+  std::vector<QueryMeasures> queries;   ///< In the order of the items.
+  RetrievalMeans micro;                 ///< Over the queries.
+  RetrievalMeans macro;                 ///< Over the classes that have queries, of their means.
   std::vector<RetrievalMeans> classes;  ///< Of each label, 0 … the largest.
 };
 
@@ -65,8 +65,8 @@ struct RetrievalOptions {
 /// linearly; at recalls below 1/R there is none, and a mean there is over larger classes alone.
 /// @param D       n by n, row i the distances of item i to all; the diagonal is not looked at.
 /// @param labels  n.
-/// @throws std::invalid_argument  sizes do not fit; a distance is NaN; a label is below kUnlabelled.
-/// O(n² log n).
+/// @throws std::invalid_argument  sizes do not fit; a distance is NaN; a label is below
+/// kUnlabelled. O(n² log n).
 [[nodiscard]] SHAPE3D_LEARNING_EXPORT RetrievalResult
 evaluate_retrieval(const Eigen::Ref<const Eigen::MatrixXd>& D, const Labels& labels,
                    const RetrievalOptions& options = {});
@@ -76,7 +76,7 @@ evaluate_retrieval(const Eigen::Ref<const Eigen::MatrixXd>& D, const Labels& lab
 struct ChanceLevel {
   double nearest_neighbour = 0.0, first_tier = 0.0, second_tier = 0.0;
 };
-[[nodiscard]] SHAPE3D_LEARNING_EXPORT ChanceLevel chance_level(const Labels& labels,
-                                                               const std::vector<bool>& queries = {});
+[[nodiscard]] SHAPE3D_LEARNING_EXPORT ChanceLevel
+chance_level(const Labels& labels, const std::vector<bool>& queries = {});
 
 }  // namespace shape3d::learning

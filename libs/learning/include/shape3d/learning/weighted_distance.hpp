@@ -16,8 +16,9 @@ struct ClassWeights {
 /// Class-weighted distance (5.19): W_ij D_ij,
 /// W_ij = other + (same − other) Σ_c P_ic Q_jc,
 /// where P_ic is how probable it is that item i is of class c: the weight expected when classes are
-/// drawn by these numbers. With predicted classes (rows of one 1, hard_probabilities()) it is `same`
-/// or `other`. What is known of items must come from a classifier that has not seen their labels.
+/// drawn by these numbers. With predicted classes (rows of one 1, hard_probabilities()) it is
+/// `same` or `other`. What is known of items must come from a classifier that has not seen their
+/// labels.
 /// @param D  #P by #Q distances, ≥ 0. @param P  #P by classes. @param Q  #Q by classes.
 /// @throws std::invalid_argument  sizes do not fit; weights are out of range; a row of P or Q has a
 /// number outside 0 … 1, or a sum above 1 + 1e-6 (a sum below 1 leaves room for other classes).
