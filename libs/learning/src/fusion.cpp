@@ -72,8 +72,7 @@ Eigen::MatrixXd locally_scaled(const Eigen::Ref<const Eigen::MatrixXd>& D, int k
   for (double& s : scale) {
     if (s == 0.0) s = least;
   }
-  const Eigen::VectorXd inverse = scale.cwiseInverse();
-  return inverse.asDiagonal() * D * inverse.asDiagonal();
+  return D.cwiseQuotient(scale * scale.transpose());
 }
 
 }  // namespace shape3d::learning
