@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "collection_commands.hpp"
 #include "common/interrupt.hpp"
 #include "common/memory_limit.hpp"
 #include "common/text.hpp"
@@ -97,6 +98,7 @@ int run_program(int argc, char** argv) {
   add_simplify(app, settings);
   add_wrap(app, settings);
   add_segment(app, settings);
+  add_evaluate(app, settings);
   for (CLI::App* command : commands_of(app)) add_shared_options(*command, settings);
   if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
     return fail(std::string("unknown command '") + argv[1] + "', expected " + command_names(app),
