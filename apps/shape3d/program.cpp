@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "collection_commands.hpp"
 #include "common/interrupt.hpp"
 #include "common/memory_limit.hpp"
 #include "common/text.hpp"
@@ -102,6 +103,7 @@ int run_program(int argc, char** argv) {
   add_simplify(app, settings);
   add_wrap(app, settings);
   add_segment(app, settings);
+  add_evaluate(app, settings);
   add_train(app, settings);
   add_classify(app, settings);
   add_map_collection(app, settings);

@@ -157,6 +157,21 @@ void add_som(CLI::App& train, Settings& settings) {
   add_seed(*command, *arguments);
 }
 
+void add_metric(CLI::App& train, Settings& settings) {
+  const auto [command, arguments] = add_kind<TrainMetricArguments>(
+      train, settings, "metric", "Learn a linear metric that tells classes apart", &train_metric);
+  command
+      ->add_option("--components", arguments->components,
+                   "Principal components that are looked at (default 100); 0: all")
+      ->check(CLI::Range(0, 1000000))
+      ->type_name("N");
+  command
+      ->add_option("--shrinkage", arguments->shrinkage,
+                   "How near the metric stays to that of the components (default 1)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("X");
+}
+
 }  // namespace
 
 void add_train(CLI::App& app, Settings& settings) {
@@ -164,6 +179,7 @@ void add_train(CLI::App& app, Settings& settings) {
   train->require_subcommand(1);
   add_svm(*train, settings);
   add_som(*train, settings);
+  add_metric(*train, settings);
   train->footer(
       "Examples:\n"
       "  shape3d train svm shapes.db --probabilities -o shapes.model\n"
