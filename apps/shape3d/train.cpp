@@ -80,6 +80,8 @@ void add_svm(CLI::App& train, Settings& settings) {
                     "'classify' then says how probable each class is");
   add_scaling(*command, arguments->options.scaling, "standard");
   add_seed(*command, *arguments);
+  command->footer(
+      "Example: shape3d train svm vectors.h5 --class-from-folder --probabilities -o svm.model");
 }
 
 // "12x6"
@@ -155,6 +157,8 @@ void add_som(CLI::App& train, Settings& settings) {
       ->check(CLI::Range(1, 10000))
       ->type_name("K");
   add_seed(*command, *arguments);
+  command->footer(
+      "Example: shape3d train som vectors.h5 --class-from-folder --grid 12x6 -o map.model");
 }
 
 void add_metric(CLI::App& train, Settings& settings) {
@@ -170,6 +174,7 @@ void add_metric(CLI::App& train, Settings& settings) {
                    "How near the metric stays to that of the components (default 1)")
       ->check(CLI::PositiveNumber)
       ->type_name("X");
+  command->footer("Example: shape3d train metric vectors.h5 --class-from-folder -o metric.model");
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ void drop_empty_classes(TrainingSet& set) {
 
 TrainingSet read_training_set(const TrainingSource& source) {
   if (!feature_format(source.path)) {
-    throw UsageError(source.path + ": expected a table of vectors (" +
+    throw UsageError(source.path + ": expected a library (.db) or a table of vectors (" +
                      std::string(kFeatureExtensions) + ")");
   }
   TrainingSet set = of_table(source);
