@@ -40,6 +40,8 @@ std::int64_t SliceWidget::slice() const {
 
 void SliceWidget::update_image() {
   const auto volume = document_.volume();
+  image_old_ = volume && geometry_ && !live_;
+  if (image_old_) return;
   if (!volume || !geometry_) {
     image_ = {};
   } else {
@@ -75,6 +77,11 @@ void SliceWidget::set_box(const std::optional<VoxelBox>& box) {
 void SliceWidget::set_box_tool(bool on) {
   box_tool_ = on;
   setCursor(on ? Qt::CrossCursor : Qt::ArrowCursor);
+}
+
+void SliceWidget::set_live(bool live) {
+  live_ = live;
+  if (live_ && image_old_) update_image();
 }
 
 void SliceWidget::set_theme(const Theme& theme) {
