@@ -21,6 +21,7 @@
 
 namespace {
 using namespace shape3d;
+using namespace shape3d::apps;
 using namespace shape3d::apps::viewer;
 using namespace shape3d::test;
 

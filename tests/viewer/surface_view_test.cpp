@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <QVTKOpenGLNativeWidget.h>
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
 #include <vtkMapper.h>
