@@ -22,7 +22,7 @@
 #include "common/text.hpp"
 #include "describe_arguments.hpp"
 #include "describe_journal.hpp"
-#include "describe_mesh.hpp"
+#include "common/describe_mesh.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 
