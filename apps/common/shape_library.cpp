@@ -81,9 +81,7 @@ struct ShapeLibrary::State {
     return id;
   }
 
-  void changed() const {
-    database->execute("UPDATE library SET generation = generation + 1");
-  }
+  void changed() const { database->execute("UPDATE library SET generation = generation + 1"); }
 };
 
 ShapeLibrary::ShapeLibrary(const std::string& path, Access access)
@@ -148,8 +146,7 @@ std::int64_t ShapeLibrary::generation() const {
 
 std::vector<LibraryModel> ShapeLibrary::models() const {
   std::vector<LibraryModel> models;
-  Sqlite::Statement rows =
-      state_->database->prepare(std::string(kModelColumns) + "ORDER BY m.id");
+  Sqlite::Statement rows = state_->database->prepare(std::string(kModelColumns) + "ORDER BY m.id");
   while (rows.step()) models.push_back(model_of(rows));
   return models;
 }
@@ -186,8 +183,8 @@ std::vector<LibraryDescriptor> ShapeLibrary::descriptors() const {
       "SELECT d.spec, d.length, (SELECT count(*) FROM vectors v WHERE v.descriptor = d.id) "
       "FROM descriptors d ORDER BY d.id");
   while (rows.step()) {
-    descriptors.push_back({rows.text(0), static_cast<Eigen::Index>(rows.integer(1)),
-                           rows.integer(2)});
+    descriptors.push_back(
+        {rows.text(0), static_cast<Eigen::Index>(rows.integer(1)), rows.integer(2)});
   }
   return descriptors;
 }
@@ -240,8 +237,8 @@ LibraryVectors ShapeLibrary::vectors(const std::string& spec) const {
   head.reset();
   result.vectors.resize(count, length);
   result.ids.reserve(static_cast<std::size_t>(count));
-  Sqlite::Statement rows = database.prepare(
-      "SELECT model, sum, data FROM vectors WHERE descriptor = ? ORDER BY model");
+  Sqlite::Statement rows =
+      database.prepare("SELECT model, sum, data FROM vectors WHERE descriptor = ? ORDER BY model");
   rows.bind(1, descriptor);
   for (Eigen::Index row = 0; row < count && rows.step(); ++row) {
     const std::string_view bytes = rows.blob(2);
@@ -265,8 +262,7 @@ LibraryVectors ShapeLibrary::vectors(const std::string& spec) const {
   Sqlite::Statement members =
       database.prepare("SELECT class, id FROM models WHERE class IS NOT NULL ORDER BY class, id");
   while (members.step()) {
-    const auto place =
-        std::lower_bound(result.ids.begin(), result.ids.end(), members.integer(1));
+    const auto place = std::lower_bound(result.ids.begin(), result.ids.end(), members.integer(1));
     if (place == result.ids.end() || *place != members.integer(1)) continue;
     result.labels[static_cast<std::size_t>(place - result.ids.begin())] =
         label_of_class.at(members.integer(0));
@@ -291,6 +287,16 @@ std::optional<Eigen::VectorXd> ShapeLibrary::vector(std::int64_t id,
   std::memcpy(vector.data(), bytes.data(), bytes.size());
   row.reset();
   return vector;
+}
+
+std::vector<std::int64_t> ShapeLibrary::described_models(const std::string& spec) const {
+  std::vector<std::int64_t> ids;
+  Sqlite::Statement rows = state_->database->prepare(
+      "SELECT model FROM vectors WHERE descriptor = (SELECT id FROM descriptors WHERE spec = ?) "
+      "ORDER BY model");
+  rows.bind(1, std::string_view(spec));
+  while (rows.step()) ids.push_back(rows.integer(0));
+  return ids;
 }
 
 std::string ShapeLibrary::thumbnail(std::int64_t id) const {
@@ -352,7 +358,8 @@ std::int64_t ShapeLibrary::put(
     const std::string_view bytes(reinterpret_cast<const char*>(vector.data()),
                                  static_cast<std::size_t>(vector.size()) * sizeof(double));
     database
-        .prepare("INSERT OR REPLACE INTO vectors (descriptor, model, sum, data) VALUES (?, ?, ?, ?)")
+        .prepare(
+            "INSERT OR REPLACE INTO vectors (descriptor, model, sum, data) VALUES (?, ?, ?, ?)")
         .bind(1, state_->make_descriptor(spec, vector.size()))
         .bind(2, id)
         .bind(3, check_sum(bytes))
@@ -382,8 +389,9 @@ void ShapeLibrary::put_thumbnails(const std::vector<std::pair<std::int64_t, std:
   Sqlite::Transaction transaction(*state_->database);
   for (const auto& [id, bytes] : png) {
     state_->database
-        ->prepare("INSERT OR REPLACE INTO thumbnails (model, sum, png) SELECT id, ?, ? FROM models "
-                  "WHERE id = ?")
+        ->prepare(
+            "INSERT OR REPLACE INTO thumbnails (model, sum, png) SELECT id, ?, ? FROM models "
+            "WHERE id = ?")
         .bind(1, check_sum(bytes))
         .bind_blob(2, bytes.data(), bytes.size())
         .bind(3, id)

@@ -13,11 +13,14 @@
 
 namespace shape3d::apps {
 
+/// What models are described by when nothing else is said.
+inline constexpr const char* kDefaultDescriptor = "hsh:K=8";
+
 /// A mesh of a library.
 struct LibraryModel {
-  std::int64_t id = 0;                    ///< Positive; is never given to another model.
-  FeatureFile file;                       ///< Absolute path, and the state it was in.
-  std::string digest;                     ///< MD5 of the file, 32 hexadecimal digits.
+  std::int64_t id = 0;  ///< Positive; is never given to another model.
+  FeatureFile file;     ///< Absolute path, and the state it was in.
+  std::string digest;   ///< MD5 of the file, 32 hexadecimal digits.
   std::int64_t vertices = 0, triangles = 0;
   std::optional<std::string> class_name;  ///< Empty: the class is not known.
 };
@@ -41,8 +44,8 @@ struct LibraryVectors {
 /// Something stored under a name: a trained classifier, or an index of vectors.
 struct LibraryItem {
   std::string name;
-  std::string kind;       ///< "svm", "som", "hnsw" …
-  std::uint64_t size = 0; ///< Bytes.
+  std::string kind;        ///< "svm", "som", "hnsw" …
+  std::uint64_t size = 0;  ///< Bytes.
 };
 
 /// One place of damage, or a file that is no longer as it was described.
@@ -67,9 +70,9 @@ class ShapeLibrary {
   enum class Access { read, write, create };
 
   /// @param access  create: an empty library is made where there is no file.
-  /// @throws FileError  there is no file (read, write) or it is not a shape library, or of a version
-  /// this program does not know; the folder cannot be written (create); another process writes to
-  /// it (write, create).
+  /// @throws FileError  there is no file (read, write) or it is not a shape library, or of a
+  /// version this program does not know; the folder cannot be written (create); another process
+  /// writes to it (write, create).
   ShapeLibrary(const std::string& path, Access access);
   ~ShapeLibrary();
   ShapeLibrary(ShapeLibrary&&) noexcept;
@@ -99,6 +102,8 @@ class ShapeLibrary {
   [[nodiscard]] LibraryVectors vectors(const std::string& spec) const;
   [[nodiscard]] std::optional<Eigen::VectorXd> vector(std::int64_t id,
                                                       const std::string& spec) const;
+  /// Ids of the models that have a vector of this descriptor, ascending.
+  [[nodiscard]] std::vector<std::int64_t> described_models(const std::string& spec) const;
   /// A PNG, or empty when there is none.
   [[nodiscard]] std::string thumbnail(std::int64_t id) const;
   [[nodiscard]] std::vector<std::int64_t> models_without_thumbnail() const;
@@ -128,7 +133,8 @@ class ShapeLibrary {
   [[nodiscard]] std::int64_t generation() const;
 
   /// Reads everything: SQLite's own check, lengths and check sums of all vectors, thumbnails and
-  /// items; with `files`, whether the meshes are where they were, and as they were by their digests.
+  /// items; with `files`, whether the meshes are where they were, and as they were by their
+  /// digests.
   [[nodiscard]] std::vector<LibraryFault> check(bool files) const;
 
  private:

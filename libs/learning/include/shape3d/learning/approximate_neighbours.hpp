@@ -22,9 +22,8 @@ class SHAPE3D_LEARNING_EXPORT ApproximateNeighbours {
  public:
   /// Items are added one by one, in their order: the graph depends on X and the options alone.
   /// @param X  n by d; kept in single precision.
-  /// @throws std::invalid_argument  an option is out of range; a number is not finite, or beyond
-  /// what the square of a float holds.
-  /// O(n log n), about 0.1 ms an item. Memory: 4 d + 8 links + 60 bytes an item.
+  /// @throws std::invalid_argument  an option is out of range; a number is not finite, or above
+  /// 1e15 in magnitude. O(n log n), about 0.1 ms an item. Memory: 4 d + 8 links + 60 bytes an item.
   explicit ApproximateNeighbours(const FeaturesView& X,
                                  const ApproximateNeighboursOptions& options = {});
   ~ApproximateNeighbours();
