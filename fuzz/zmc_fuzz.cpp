@@ -119,7 +119,11 @@ void check_reference(const ZmcCase& one, Status status, const Mesh& surface,
 void check_neutral(const ZmcCase& one, const Mesh& surface) {
   if (one.options.ties != TieRule::neutral || one.options.border != Border::open) return;
   std::vector<double> negated = one.values;
-  for (double& v : negated) v = -(v - one.isovalue);
+  for (double& v : negated) {
+    const bool finite = std::isfinite(v);
+    v = -(v - one.isovalue);
+    if (finite && !std::isfinite(v)) return;  // -f is not a volume of finite doubles
+  }
   Mesh other;
   static_cast<void>(extract(make_view(negated.data(), one.dims), 0.0, one.options, other));
   check(other.positions == surface.positions, "negated samples have the same vertices");
@@ -332,7 +336,10 @@ void run(const ZmcCase& one) {
       shape3d::zmc::test::properties_of(surface, open_edges(named, outside));
   check(properties.is_clean(), "no degenerate, double or unused element");
   if (options.zero_faces == ZeroFaces::boundary) {
-    check(properties.is_closed() && properties.inconsistent_edges == 0, "the surface is closed");
+    // Beside a masked cell two of an edge's four triangles may be missing, and the others run it
+    // the same way.
+    check(properties.is_closed() && (!one.finite() || properties.inconsistent_edges == 0),
+          "the surface is closed");
   }
   if (one.ordinary()) check_reference(one, status, surface, named, outside, properties);
   check_neutral(one, surface);
