@@ -39,7 +39,29 @@ class SearchSet {
                                            const std::vector<std::int64_t>& without = {},
                                            int threads = 0) const;
 
+  /// How probable each class of classes() is for a vector: its shares among the `count` nearest
+  /// models whose class is known. Zeros when there is none.
+  /// @throws as nearest().
+  [[nodiscard]] std::vector<double> class_probabilities(
+      const Eigen::VectorXd& vector, const std::vector<std::int64_t>& without = {},
+      std::size_t count = 10, int threads = 0) const;
+
+  /// By the class-weighted distance (5.19): W D², D the distance of nearest(), W = other + (same −
+  /// other) P, P how probable the model's class is for the query; `other` where it is not known.
+  /// @param probabilities  One for each of classes(), of the query.
+  /// @throws std::invalid_argument  as nearest(); there is another number of probabilities, or one
+  /// is outside 0 … 1; not 0 < same ≤ other.
+  [[nodiscard]] std::vector<Match> nearest_weighted(const Eigen::VectorXd& vector,
+                                                    std::size_t count,
+                                                    const std::vector<double>& probabilities,
+                                                    const std::vector<std::int64_t>& without = {},
+                                                    double same = 0.25, double other = 1.0,
+                                                    int threads = 0) const;
+
  private:
+  // All models by distance, as rows of vectors().
+  [[nodiscard]] learning::Neighbours all(const Eigen::VectorXd& vector, int threads) const;
+
   LibraryVectors head_;  // without vectors
   learning::ExactNeighbours neighbours_;
 };

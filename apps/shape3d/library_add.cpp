@@ -1,7 +1,8 @@
 #include <algorithm>
-#include <atomic>
+#include <condition_variable>
 #include <exception>
 #include <iostream>
+#include <map>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -40,8 +41,10 @@ struct Known {
   std::vector<bool> described;  // by each descriptor of the run
 };
 
-// Describes meshes, several at a time, and puts each into the library as soon as it is described:
-// what is in memory does not grow with their number.
+// Describes meshes, several at a time, and puts them into the library in the order they are named,
+// so that ids do not depend on the number of threads. Each is stored as soon as it and those before
+// it are described; how far ahead of the first that is not, meshes are described, is limited. So
+// what is in memory, and what a run that is killed loses, does not grow with their number.
 class Adder {
  public:
   Adder(ShapeLibrary& library, const std::vector<NamedMesh>& meshes,
@@ -74,6 +77,7 @@ class Adder {
     const std::size_t workers = std::min(threads, meshes_.size());
     inner_threads_ =
         static_cast<int>(std::max<std::size_t>(1, workers == 0 ? 1 : threads / workers));
+    ahead_ = 4 * workers;
     std::vector<std::thread> pool;
     for (std::size_t i = 1; i < workers; ++i) pool.emplace_back([this] { work(); });
     if (workers > 0) work();
@@ -91,23 +95,37 @@ class Adder {
     std::vector<std::pair<std::string, Eigen::VectorXd>> vectors;
     std::vector<std::string> warnings;
     bool store = true;
+    std::string reason;  // why there are no vectors; empty: there are
   };
 
   void work() {
     for (;;) {
-      const std::size_t i = next_.fetch_add(1);
-      if (i >= meshes_.size() || stop_) return;
+      std::size_t i = 0;
+      {
+        std::unique_lock<std::mutex> lock(mutex_);
+        advanced_.wait(lock, [&] { return failure_ || next_ < done_ + ahead_; });
+        if (failure_ || next_ >= meshes_.size()) return;
+        i = next_++;
+      }
       const NamedMesh& mesh = meshes_[i];
       Outcome outcome;
-      std::string reason;
       try {
         outcome = describe(mesh);
       } catch (const std::bad_alloc&) {
-        reason = "not enough memory";
+        outcome.reason = "not enough memory";
       } catch (const std::exception& error) {
-        reason = without_path(error.what(), mesh.path);
+        outcome.reason = without_path(error.what(), mesh.path);
       }
-      finish(mesh, outcome, reason);
+      const std::lock_guard<std::mutex> lock(mutex_);
+      waiting_.emplace(i, std::move(outcome));
+      for (auto first = waiting_.begin();
+           first != waiting_.end() && first->first == done_ && !failure_;
+           first = waiting_.erase(first)) {
+        finish(meshes_[done_], first->second);
+        ++done_;
+      }
+      progress_.update(static_cast<double>(done_) / static_cast<double>(meshes_.size()));
+      advanced_.notify_all();
     }
   }
 
@@ -163,25 +181,21 @@ class Adder {
     return outcome;
   }
 
-  void finish(const NamedMesh& mesh, const Outcome& outcome, const std::string& reason) {
-    const std::lock_guard<std::mutex> lock(mutex_);
+  void finish(const NamedMesh& mesh, const Outcome& outcome) {
     try {
-      if (reason.empty()) store(mesh, outcome);
+      if (outcome.reason.empty()) store(mesh, outcome);
     } catch (...) {
-      if (!failure_) failure_ = std::current_exception();
-      stop_ = true;
+      failure_ = std::current_exception();
+      return;
     }
     if (!settings_.quiet && !outcome.warnings.empty()) progress_.clear();
     for (const std::string& sentence : outcome.warnings) {
       warn(settings_, printable(mesh.path) + ": " + sentence);
     }
-    if (!reason.empty()) {
-      progress_.clear();
-      std::cerr << "shape3d: " << printable(mesh.path) << ": " << reason << '\n';
-      failed.emplace_back(mesh.path, reason);
-    }
-    ++done_;
-    progress_.update(static_cast<double>(done_) / static_cast<double>(meshes_.size()));
+    if (outcome.reason.empty()) return;
+    progress_.clear();
+    std::cerr << "shape3d: " << printable(mesh.path) << ": " << outcome.reason << '\n';
+    failed.emplace_back(mesh.path, outcome.reason);
   }
 
   void store(const NamedMesh& mesh, const Outcome& outcome) {
@@ -206,10 +220,10 @@ class Adder {
   Progress progress_;
   std::unordered_map<std::string, Known> known_;
   int inner_threads_ = 1;
-  std::atomic<std::size_t> next_{0};
-  std::atomic<bool> stop_{false};
   std::mutex mutex_;
-  std::size_t done_ = 0;
+  std::condition_variable advanced_;
+  std::map<std::size_t, Outcome> waiting_;  // described, but one before them is not
+  std::size_t next_ = 0, done_ = 0, ahead_ = 1;
   std::exception_ptr failure_;
 };
 

@@ -16,7 +16,6 @@ struct Query {
   std::optional<LibraryModel> model;      ///< Where the query is in the library.
   std::optional<std::string> class_name;  ///< Of the query, when it is known.
   std::optional<Mesh> mesh;               ///< Empty for a model that is named by its id.
-  Eigen::VectorXd vector;
 };
 
 struct Found {

@@ -164,7 +164,7 @@ TEST_CASE("distance refuses what it cannot measure", "[distance][error]") {
     CHECK_THAT(run.err, Contains(sentence));
   };
   refuses(2, {"distance", "cube.off"}, "B is required");
-  refuses(1, {"distance", "cube.off", "none.off"}, "none.off: No such file");
+  refuses(1, {"distance", "cube.off", "none.off"}, "none.off: cannot be opened: No such file");
   refuses(1, {"distance", "flat.off", "cube.off"}, "flat.off: ");
   refuses(2, {"distance", "cube.off", "cube.off", "--descriptor", "x"}, "--descriptor x: ");
   refuses(2, {"distance", "cube.off", "cube.off", "--samples", "0"}, "0");

@@ -219,8 +219,8 @@ TEST_CASE("files that are no library are refused", "[shape_library][error]") {
     CHECK_THROWS_AS(ShapeLibrary(path, access), FileError);
     CHECK_THROWS_WITH(ShapeLibrary(path, access), Contains(path + ": ") && Contains(sentence));
   };
-  refuses(Access::read, "No such file");
-  refuses(Access::write, "No such file");
+  refuses(Access::read, "no such file");
+  refuses(Access::write, "no such file");
   CHECK(listing(folder.path()).empty());
   CHECK_THROWS_WITH(ShapeLibrary((folder / "none" / "a.db").string(), Access::create),
                     Contains("cannot be written: No such file or directory"));
@@ -310,11 +310,13 @@ TEST_CASE("damage is found, named and not used", "[shape_library][error]") {
   }
   SECTION("an end that is missing") {
     std::ofstream(path, std::ios::binary) << good.substr(0, good.size() / 2);
+    std::string sentence;
     try {
-      CHECK_FALSE(faults().empty());
+      for (const LibraryFault& fault : faults()) sentence = fault.sentence;
     } catch (const FileError& error) {
-      CHECK_THAT(error.what(), Contains("is damaged"));
+      sentence = error.what();
     }
+    CHECK_THAT(sentence, Contains("malformed") || Contains("is damaged"));
   }
   restore();
   CHECK(faults().empty());
