@@ -110,9 +110,11 @@ double ByteReader::real() {
   return value;
 }
 
-std::string ByteReader::text() {
-  const std::size_t size = count(1);
-  std::string value(rest_.substr(0, size));
+std::string ByteReader::text() { return std::string(raw(count(1))); }
+
+std::string_view ByteReader::raw(std::size_t size) {
+  require(rest_.size() >= size, "it ends early");
+  const std::string_view value = rest_.substr(0, size);
   rest_.remove_prefix(size);
   return value;
 }

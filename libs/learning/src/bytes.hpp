@@ -24,6 +24,7 @@ class ByteWriter {
   void i32(int value) { u32(static_cast<std::uint32_t>(value)); }
   void real(double value);
   void text(std::string_view value);
+  void raw(std::string_view value) { bytes_ += value; }  ///< Without its length.
   void integers(const std::vector<int>& values);
   void reals(const double* values, Eigen::Index count);  ///< With their number.
   void vector(const Eigen::VectorXd& values) { reals(values.data(), values.size()); }
@@ -50,6 +51,7 @@ class ByteReader {
   int i32() { return static_cast<int>(u32()); }
   double real();
   std::string text();
+  std::string_view raw(std::size_t size);
   std::vector<int> integers();
   Eigen::VectorXd vector();
   Features matrix();
