@@ -34,9 +34,10 @@ void add_describe(CLI::App& app, Settings& settings) {
   command->add_option("--list", arguments->list, "A text file that names a mesh on each line")
       ->type_name("FILE");
   command
-      ->add_option("--descriptor", arguments->descriptors,
-                   "What to compute: KIND:KEY=VALUE,… of the kinds hsh, csm, d2, egi, random, and "
-                   "for closed meshes of genus 0 sni, sci, sgi; may be given several times")
+      ->add_option(
+          "--descriptor", arguments->descriptors,
+          "What to compute: KIND:KEY=VALUE,… of the kinds hsh, csm, d2, egi, panorama, random, and "
+          "for closed meshes of genus 0 sni, sci, sgi; may be given several times")
       ->allow_extra_args(false)
       ->type_name("SPEC");
   command

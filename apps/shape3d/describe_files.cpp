@@ -216,7 +216,7 @@ FeatureTable table_of(const std::vector<Job>& jobs, const std::vector<std::strin
 
 }  // namespace
 
-void describe_files(const DescribeArguments& arguments, const Settings& settings) {
+DescribeOutcome describe_to_table(const DescribeArguments& arguments, const Settings& settings) {
   if (arguments.descriptors.empty()) throw UsageError("--descriptor is required");
   const std::vector<Descriptor> descriptors = parse_descriptors(arguments.descriptors);
   if (arguments.output.empty()) throw UsageError("--output is required");
@@ -225,67 +225,78 @@ void describe_files(const DescribeArguments& arguments, const Settings& settings
     throw UsageError("-o " + arguments.output + ": expected a name that ends in " +
                      std::string(kFeatureExtensions));
   }
+  DescribeOutcome outcome;
   std::vector<std::string> specs;
-  std::vector<Eigen::Index> lengths;
+  std::vector<Eigen::Index>& lengths = outcome.lengths;
   for (const Descriptor& descriptor : descriptors) {
     specs.push_back(descriptor.to_string());
     lengths.push_back(descriptor.length());
   }
   const std::vector<std::string> paths = mesh_paths(arguments, settings);
+  outcome.meshes = paths.size();
   const std::string journal_path = arguments.output + ".part";
   if (arguments.restart) std::filesystem::remove(journal_path);
   std::map<std::string, DescribedFile> known;
   if (!arguments.restart) known = earlier_vectors(arguments.output, specs);
-  OutputFile file(arguments.output);
-  DescribeJournal journal(journal_path, specs, lengths);
-  for (const auto& [path, entry] : journal.entries()) known.insert_or_assign(path, entry);
+  outcome.file = std::make_unique<OutputFile>(arguments.output);
+  outcome.journal = std::make_unique<DescribeJournal>(journal_path, specs, lengths);
+  for (const auto& [path, entry] : outcome.journal->entries()) known.insert_or_assign(path, entry);
 
   Stopwatch watch;
   std::vector<Job> jobs(paths.size());
-  std::size_t kept = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     jobs[i].result.file = file_state(paths[i]);
     const auto place = known.find(paths[i]);
     if (place != known.end() && place->second.file == jobs[i].result.file) {
       jobs[i].result = std::move(place->second);
       jobs[i].kept = true;
-      ++kept;
+      ++outcome.kept;
     }
   }
-  Runner(jobs, descriptors, journal, settings).run();
-  const double seconds = watch.lap();
+  Runner(jobs, descriptors, *outcome.journal, settings).run();
+  outcome.seconds = watch.lap();
+  outcome.table = table_of(jobs, specs, lengths);
+  write_features(*outcome.file, *format, outcome.table);
+  outcome.file->finish();
+  return outcome;
+}
 
-  const FeatureTable table = table_of(jobs, specs, lengths);
-  write_features(file, *format, table);
-  file.finish();
+void DescribeOutcome::commit() {
+  file->commit();
+  journal->remove();
+}
+
+void describe_files(const DescribeArguments& arguments, const Settings& settings) {
+  DescribeOutcome outcome = describe_to_table(arguments, settings);
+  const FeatureTable& table = outcome.table;
+  const std::size_t described = table.files.size() - outcome.kept;
   Json report = report_head("describe");
   report["output"] = arguments.output;
   report["descriptors"] = Json::array();
-  for (std::size_t s = 0; s < specs.size(); ++s) {
-    report["descriptors"].push_back({{"spec", specs[s]}, {"length", lengths[s]}});
+  for (std::size_t s = 0; s < table.sets.size(); ++s) {
+    report["descriptors"].push_back({{"spec", table.sets[s].spec}, {"length", outcome.lengths[s]}});
   }
-  report["meshes"] = paths.size();
-  report["described"] = table.files.size() - kept;
-  report["kept"] = kept;
+  report["meshes"] = outcome.meshes;
+  report["described"] = described;
+  report["kept"] = outcome.kept;
   report["failed"] = Json::array();
   for (const auto& [path, reason] : table.failed) {
     report["failed"].push_back({{"file", path}, {"reason", reason}});
   }
-  report["seconds"] = seconds;
+  report["seconds"] = outcome.seconds;
   write_json(settings, report);
-  file.commit();
-  journal.remove();
+  outcome.commit();
   if (!settings.quiet) {
-    for (const std::string& spec : specs) std::cout << line("descriptor", spec);
-    std::cout << line("described", std::to_string(table.files.size() - kept));
-    if (kept > 0) std::cout << line("kept", std::to_string(kept));
+    for (const FeatureSet& set : table.sets) std::cout << line("descriptor", set.spec);
+    std::cout << line("described", std::to_string(described));
+    if (outcome.kept > 0) std::cout << line("kept", std::to_string(outcome.kept));
     if (!table.failed.empty()) std::cout << line("failed", std::to_string(table.failed.size()));
-    std::cout << line("seconds", rounded(seconds)) << line("output", arguments.output);
+    std::cout << line("seconds", rounded(outcome.seconds)) << line("output", arguments.output);
   }
   if (!table.failed.empty() && !arguments.keep_going) {
     std::cout.flush();
     throw std::runtime_error(std::to_string(table.failed.size()) + " of " +
-                             std::to_string(paths.size()) +
+                             std::to_string(outcome.meshes) +
                              " meshes could not be described; --keep-going makes that no failure");
   }
 }

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "collection_commands.hpp"
 #include "common/interrupt.hpp"
 #include "common/memory_limit.hpp"
 #include "common/text.hpp"
@@ -103,6 +104,7 @@ int run_program(int argc, char** argv) {
   add_simplify(app, settings);
   add_wrap(app, settings);
   add_segment(app, settings);
+  add_evaluate(app, settings);
   add_library(app, settings);
   add_search(app, settings);
   add_distance(app, settings);

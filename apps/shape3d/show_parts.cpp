@@ -17,9 +17,9 @@
 #include <shape3d/zmc/extract.hpp>
 
 #include "common/color_map.hpp"
+#include "common/describe_mesh.hpp"
 #include "common/raster.hpp"
 #include "common/text.hpp"
-#include "common/describe_mesh.hpp"
 
 namespace shape3d::apps {
 namespace {
@@ -372,6 +372,30 @@ void show(Collector& collector, const d::SphericalParameters& p, const PosedMesh
   collector.add_image(equirectangular(image, low, high),
                       "degrees up to " + std::to_string(p.K) + ", residual " + percent(residual),
                       scale);
+}
+
+// One picture of three views, and one of how squarely they look at the surface.
+void show(Collector& collector, const d::PanoramaParameters& p, const PosedMesh& mesh,
+          int threads) {
+  const d::PanoramaImages images = d::panorama_images(mesh.V, mesh.F, p.options, threads);
+  static constexpr std::array<const char*, 3> kNames{"first", "second", "third"};
+  for (const bool is_distance : {true, false}) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Eigen::MatrixXd& image = is_distance ? images.distance[axis] : images.facing[axis];
+      ColorScale scale;
+      scale.upper = is_distance ? std::max(1e-30, image.maxCoeff()) : 1.0;
+      Raster raster = make_raster(static_cast<int>(image.cols()), static_cast<int>(image.rows()),
+                                  {0.0, 0.0, 0.0});
+      // Rows of pixels from the top, which is the positive end of the axis.
+      const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values =
+          image.colwise().reverse();
+      raster.rgb = colors_of(values.data(), static_cast<std::size_t>(values.size()), scale);
+      collector.add_image(std::move(raster),
+                          std::string(is_distance ? "distance from the " : "facing from the ") +
+                              kNames[axis] + " axis",
+                          scale);
+    }
+  }
 }
 
 void show(Collector& /*collector*/, const d::D2Parameters& /*p*/, const PosedMesh& /*mesh*/,

@@ -79,6 +79,11 @@ struct Descriptor::State {
     return p.length;
   }
 
+  static Eigen::Index prepare(const PanoramaParameters& p) {
+    check_power(p.power);
+    return panorama_length(p.options);
+  }
+
   Eigen::Index prepare(const SphericalParameters& p) {
     sh = std::make_unique<const ShTransform>(detail::prepare(p));
     return detail::length(p);
@@ -139,6 +144,11 @@ struct Descriptor::State {
   static Eigen::VectorXd compute(const RandomParameters& p, const Eigen::Ref<const Points>& V,
                                  const Eigen::Ref<const Triangles>& F, int) {
     return random_descriptor(V, F, p.length, p.seed);
+  }
+
+  static Eigen::VectorXd compute(const PanoramaParameters& p, const Eigen::Ref<const Points>& V,
+                                 const Eigen::Ref<const Triangles>& F, int threads) {
+    return shaped(shaped(panorama_spectrum(V, F, p.options, threads), false, p.power), p.unit, 1.0);
   }
 
   Eigen::VectorXd compute(const SphericalParameters&, const Eigen::Ref<const Points>&,

@@ -53,6 +53,11 @@ struct EnumNames<CsmVariant> {
 };
 
 template <>
+struct EnumNames<PanoramaAxes> {
+  static constexpr std::array<std::string_view, 2> names{"surface", "normals"};
+};
+
+template <>
 struct EnumNames<SphericalForm> {
   static constexpr std::array<std::string_view, 3> names{"amplitudes", "norms", "roots"};
 };
@@ -118,6 +123,15 @@ template <class Visitor>
 void visit_fields(RandomParameters& p, Visitor&& visit) {
   visit("length", p.length);
   visit("seed", p.seed);
+}
+
+template <class Visitor>
+void visit_fields(PanoramaParameters& p, Visitor&& visit) {
+  visit("axes", p.options.axes);
+  visit("K", p.options.K);
+  visit("size", p.options.size);
+  visit("power", p.power);
+  visit("unit", p.unit);
 }
 
 template <class Visitor>

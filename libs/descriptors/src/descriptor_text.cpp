@@ -11,8 +11,9 @@
 namespace shape3d::descriptors::detail {
 namespace {
 
-constexpr std::array<std::string_view, 8> kKinds{"hsh",    "csm", "d2",  "egi",
-                                                 "random", "sni", "sci", "sgi"};
+constexpr std::array<std::string_view, 9> kKinds{"hsh",      "csm", "d2",  "egi", "random",
+                                                 "panorama", "sni", "sci", "sgi"};
+constexpr std::size_t kSpherical = 6;  // place of the first kind of a spherical image
 
 Parameters defaults(std::string_view kind) {
   if (kind == "hsh") return HshParameters{};
@@ -20,6 +21,7 @@ Parameters defaults(std::string_view kind) {
   if (kind == "d2") return D2Parameters{};
   if (kind == "egi") return EgiParameters{};
   if (kind == "random") return RandomParameters{};
+  if (kind == "panorama") return PanoramaParameters{};
   SphericalParameters spherical;
   spherical.image = kind == "sni"   ? SphericalImageKind::sni
                     : kind == "sci" ? SphericalImageKind::sci
@@ -99,7 +101,7 @@ void visit_all(Description& description, Visitor&& visit) {
 
 std::string_view kind_of(const Parameters& parameters) {
   if (const auto* spherical = std::get_if<SphericalParameters>(&parameters)) {
-    return kKinds[5 + static_cast<std::size_t>(spherical->image)];
+    return kKinds[kSpherical + static_cast<std::size_t>(spherical->image)];
   }
   return kKinds[parameters.index()];
 }

@@ -52,8 +52,10 @@ TEST_CASE("descriptions that say nothing known are refused", "[descriptors][cont
     CHECK_THROWS_WITH(Descriptor::parse(spec), sentence);
   };
   refused("zernike",
-          "descriptor kind is 'zernike', expected hsh, csm, d2, egi, random, sni, sci or sgi");
-  refused("", "descriptor kind is '', expected hsh, csm, d2, egi, random, sni, sci or sgi");
+          "descriptor kind is 'zernike', expected hsh, csm, d2, egi, random, panorama, sni, sci or "
+          "sgi");
+  refused("",
+          "descriptor kind is '', expected hsh, csm, d2, egi, random, panorama, sni, sci or sgi");
   refused("egi:L=4", "descriptor key is 'L', expected K or align for egi");
   refused("egi:K", "descriptor part is 'K', expected key=value");
   refused("egi:", "descriptor 'egi:' ends after ':', expected key=value");

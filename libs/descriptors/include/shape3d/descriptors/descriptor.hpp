@@ -19,7 +19,8 @@ namespace shape3d::descriptors {
 ///
 /// SPEC = kind [":" key "=" value { "," key "=" value }], for example
 /// "hsh:map=equal_volume,K=8,voxels=64,fill=gedt". Keys that are left out have their defaults.
-/// Kinds: hsh, csm, d2, egi, random, sni, sci, sgi; docs/notes/descriptors.md lists their keys.
+/// Kinds: hsh, csm, d2, egi, random, panorama, sni, sci, sgi; docs/notes/descriptors.md lists their
+/// keys.
 ///
 /// Holds what compute() needs and what does not depend on a mesh, so that it serves many; copies
 /// share it. compute() may be called concurrently.

@@ -5,6 +5,7 @@
 
 #include "shape3d/descriptors/csm.hpp"
 #include "shape3d/descriptors/hsh.hpp"
+#include "shape3d/descriptors/panorama.hpp"
 #include "shape3d/descriptors/sh.hpp"
 #include "shape3d/descriptors/shape_distribution.hpp"
 #include "shape3d/descriptors/spherical_image.hpp"
@@ -67,6 +68,13 @@ struct RandomParameters {
   std::uint64_t seed = 1;
 };
 
+/// `panorama`: Fourier amplitudes of panoramic views.
+struct PanoramaParameters {
+  PanoramaOptions options;
+  double power = 0.5;  ///< Each number x becomes x^power; 0.1 … 1.
+  bool unit = true;    ///< Then the vector is divided by its L2 norm.
+};
+
 /// Which spherical image.
 enum class SphericalImageKind { sni, sci, sgi };
 
@@ -91,6 +99,6 @@ struct SphericalParameters {
 };
 
 using Parameters = std::variant<HshParameters, CsmParameters, D2Parameters, EgiParameters,
-                                RandomParameters, SphericalParameters>;
+                                RandomParameters, PanoramaParameters, SphericalParameters>;
 
 }  // namespace shape3d::descriptors

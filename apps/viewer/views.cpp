@@ -1,0 +1,11 @@
+#include "surface_view.hpp"
+#include "view.hpp"
+#include "volume_view.hpp"
+
+namespace shape3d::apps::viewer {
+
+std::vector<View*> make_views(Document& document) {
+  return {new VolumeView(document), new SurfaceView(document)};
+}
+
+}  // namespace shape3d::apps::viewer

@@ -1,0 +1,193 @@
+#include "volume_view.hpp"
+
+#include <cmath>
+
+#include <QVTKOpenGLNativeWidget.h>
+#include <QApplication>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QtTest/QTest>
+#include <catch2/catch.hpp>
+
+#include "four_up.hpp"
+#include "scene_widget.hpp"
+#include "slice_widget.hpp"
+#include "window_fixture.hpp"
+
+namespace {
+using namespace shape3d::apps::viewer;
+using namespace shape3d::test;
+
+// 40 × 60 × 30 samples, value i + 100 j, 0.5 × 1 × 2 mm apart: each value says where it is.
+std::shared_ptr<const OpenVolume> ramp() {
+  return made_volume(
+      {40, 60, 30},
+      [](std::int64_t i, std::int64_t j, std::int64_t) { return static_cast<double>(i + 100 * j); },
+      {0.5, 1.0, 2.0});
+}
+
+TEST_CASE("volume view says what to open, and shows it then", "[viewer][volume]") {
+  WindowFixture fixture;
+  auto& view = fixture.view<VolumeView>("volume");
+  CHECK(view.missing().startsWith("Open a volume"));
+  CHECK_FALSE(view.content()->isVisible());
+  fixture.document().set_volume(ramp());
+  REQUIRE(fixture.settle());
+  CHECK(view.missing().isEmpty());
+  CHECK(view.content()->isVisible());
+  for (int axis = 0; axis < 3; ++axis) {
+    const QImage picture = WindowFixture::grab(view.four_up()->slice(axis));
+    INFO("axis " << axis);
+    CHECK(edge_count(picture) > 100);
+  }
+}
+
+TEST_CASE("a click in a slice moves the crosshair of all, and the line says where it is",
+          "[viewer][volume]") {
+  WindowFixture fixture;
+  fixture.document().set_volume(ramp());
+  REQUIRE(fixture.settle());
+  FourUp* four = fixture.view<VolumeView>("volume").four_up();
+  SliceWidget* axial = four->slice(2);
+  const QImage sagittal = WindowFixture::grab(four->slice(0));
+  const QPoint at = axial->pixel_of({10.0, 50.0, 15.0}).toPoint();
+  QTest::mouseClick(axial, Qt::LeftButton, Qt::NoModifier, at);
+  const Eigen::Vector3d cursor = fixture.document().cursor();
+  CHECK(cursor.isApprox(Eigen::Vector3d(10.0, 50.0, 15.0)));
+  CHECK(four->slice(0)->slice() == 10);
+  CHECK(four->slice(1)->slice() == 50);
+  // Value i + 100 j, millimetres by the spacing.
+  hover(axial, at);
+  CHECK(four->readout().contains("voxel 10 50 15"));
+  CHECK(four->readout().contains("value 5010"));
+  QEvent leave(QEvent::Leave);
+  QApplication::sendEvent(axial, &leave);
+  CHECK(four->readout().startsWith("Crosshair"));
+  CHECK(four->readout().contains("L 5.0  P 50.0  S 30.0 mm"));
+  CHECK(changed_pixels(sagittal, WindowFixture::grab(four->slice(0))) > 50);
+  hover(axial, {2, 2});
+  CHECK(four->readout().contains("outside the volume"));
+}
+
+TEST_CASE("the slices show the samples where they are", "[viewer][volume]") {
+  WindowFixture fixture;
+  // A bright block: left half in i, first third in j.
+  fixture.document().set_volume(
+      made_volume({30, 30, 30}, [](std::int64_t i, std::int64_t j, std::int64_t) {
+        return i < 15 && j < 10 ? 1000.0 : 0.0;
+      }));
+  fixture.document().set_window({500.0, 1000.0});
+  REQUIRE(fixture.settle());
+  SliceWidget* axial = fixture.view<VolumeView>("volume").four_up()->slice(2);
+  const QImage picture = WindowFixture::grab(axial);
+  for (const auto& [i, j] : {std::pair{4.0, 4.0}, {11.0, 6.0}, {20.0, 4.0}, {4.0, 20.0}}) {
+    INFO("sample " << i << " " << j);
+    const QPoint at = axial->pixel_of({i, j, 15.0}).toPoint();
+    CHECK(qGray(picture.pixel(at)) == (i < 15 && j < 10 ? 255 : 0));
+  }
+}
+
+TEST_CASE("right drag changes window and level, and one step of undo takes it back",
+          "[viewer][volume]") {
+  WindowFixture fixture;
+  fixture.document().set_volume(ramp());
+  REQUIRE(fixture.settle());
+  auto& view = fixture.view<VolumeView>("volume");
+  SliceWidget* axial = view.four_up()->slice(2);
+  const Window before = fixture.document().window();
+  const double grey = mean_grey(WindowFixture::grab(axial));
+  // Up by half a side: the level falls by 1/2 · 1/4 of the range of 0 … 5939.
+  const QPoint middle(axial->width() / 2, axial->height() / 2);
+  drag(axial, middle, middle - QPoint(0, axial->height() / 2), Qt::RightButton);
+  const Window after = fixture.document().window();
+  const double share = (axial->height() / 2) / static_cast<double>(axial->height());
+  CHECK(after.width == Approx(before.width));
+  CHECK(after.level == Approx(before.level - share * 0.25 * 5939.0));
+  CHECK(mean_grey(WindowFixture::grab(axial)) > grey + 5.0);
+  CHECK(view.panel()->findChild<QDoubleSpinBox*>("level")->value() ==
+        Approx(after.level).margin(0.06));
+  QTest::keyClick(&fixture.window(), Qt::Key_Z, Qt::ControlModifier);
+  CHECK(fixture.document().window().level == Approx(before.level));
+  QTest::keyClick(&fixture.window(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  CHECK(fixture.document().window().level == Approx(after.level));
+}
+
+TEST_CASE("presets set the windows that radiologists use", "[viewer][volume]") {
+  WindowFixture fixture;
+  fixture.document().set_volume(ramp());
+  REQUIRE(fixture.settle());
+  auto& view = fixture.view<VolumeView>("volume");
+  auto* preset = view.panel()->findChild<QComboBox*>("preset");
+  REQUIRE(preset != nullptr);
+  const std::array<std::pair<const char*, Window>, 4> expected{{{"Lung", {-600, 1500}},
+                                                                {"Bone", {500, 2000}},
+                                                                {"Soft tissue", {40, 400}},
+                                                                {"Abdomen", {60, 350}}}};
+  for (const auto& [title, window] : expected) {
+    INFO(title);
+    preset->setFocus();
+    const int row = preset->findText(title);
+    REQUIRE(row >= 0);
+    // As the user does: the list is open, a row is chosen.
+    preset->setCurrentIndex(row);
+    emit preset->activated(row);
+    CHECK(fixture.document().window() == window);
+  }
+}
+
+TEST_CASE("the wheel goes through slices, Ctrl and the wheel zoom round the mouse",
+          "[viewer][volume]") {
+  WindowFixture fixture;
+  fixture.document().set_volume(ramp());
+  REQUIRE(fixture.settle());
+  SliceWidget* axial = fixture.view<VolumeView>("volume").four_up()->slice(2);
+  CHECK(axial->slice() == 15);
+  wheel(axial, {50, 50}, 1);
+  wheel(axial, {50, 50}, 1);
+  CHECK(axial->slice() == 17);
+  for (int n = 0; n < 40; ++n) wheel(axial, {50, 50}, -1);
+  CHECK(axial->slice() == 0);  // and no further
+  const QPoint at(axial->width() / 2 + 20, axial->height() / 2 + 10);
+  const Eigen::Vector3d place = axial->lattice_at(at);
+  wheel(axial, at, 3, Qt::ControlModifier);
+  CHECK(axial->zoom() == Approx(1.2 * 1.2 * 1.2));
+  CHECK(axial->lattice_at(at).isApprox(place, 1e-9));
+}
+
+TEST_CASE("turning the scene moves the camera and changes the picture", "[viewer][volume]") {
+  WindowFixture fixture;
+  fixture.document().set_volume(ramp());
+  REQUIRE(fixture.settle());
+  SceneWidget* scene = fixture.view<VolumeView>("volume").four_up()->scene();
+  const std::vector<double> camera = camera_numbers(scene->camera());
+  const QImage before = WindowFixture::grab(scene);
+  CHECK(edge_count(before, 15) > 300);  // planes, box, axes: not an empty picture
+  bool coarse = false;
+  QWidget* gl = scene->gl_widget();
+  drag(gl, {100, 100}, {180, 120}, Qt::LeftButton, 6, [&] { coarse = scene->interacting(); });
+  CHECK(coarse);
+  CHECK_FALSE(scene->interacting());
+  REQUIRE(fixture.settle());
+  CHECK(camera_numbers(scene->camera()) != camera);
+  CHECK(changed_pixels(before, WindowFixture::grab(scene)) > 2000);
+}
+
+TEST_CASE("a double click shows one of the four alone, and all again", "[viewer][volume]") {
+  WindowFixture fixture;
+  fixture.document().set_volume(ramp());
+  REQUIRE(fixture.settle());
+  FourUp* four = fixture.view<VolumeView>("volume").four_up();
+  SliceWidget* axial = four->slice(2);
+  const int width = axial->width();
+  QTest::mouseDClick(axial, Qt::LeftButton);
+  REQUIRE(fixture.settle());
+  CHECK(axial->width() > 1.8 * width);
+  CHECK_FALSE(four->slice(0)->isVisible());
+  CHECK_FALSE(four->scene()->isVisible());
+  QTest::mouseDClick(axial, Qt::LeftButton);
+  REQUIRE(fixture.settle());
+  CHECK(axial->width() == width);
+  CHECK(four->scene()->isVisible());
+}
+
+}  // namespace
