@@ -27,7 +27,7 @@ $table
 
 - Opening begins with the samples in memory: least, greatest and automatic window of the values, three
   slices and the 3D view. Median of three. Volumes are generated (a gyroid with noise).
-- Dragging: each picture is a ZMC surface of the volume at a lower resolution (at most 2¹⁹
+- Dragging: each picture is a ZMC surface of the volume at a lower resolution (at most 2¹⁸
   samples), its drawing, and the contours of the full volume on three slices.
 - Turning: mouse events, each with its picture on the screen; a surface of about 40,000 triangles, made
   by clustering vertices after the extraction, stands in for the full one. Medians.

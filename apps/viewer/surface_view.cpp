@@ -338,7 +338,7 @@ void SurfaceView::take(IsoResult result) {
     four_up_->scene()->look(LookFrom::oblique);
   }
   four_up_->scene()->redraw();
-  if (item->shown.counts.all_zero_cells > 0) four_up_->refresh_outlines();
+  four_up_->refresh_outlines();
   show_facts();
   emit busy_changed();
 }
@@ -380,7 +380,7 @@ void SurfaceView::set_isovalue(double isovalue, bool dragging) {
     isovalue_->setValue(isovalue);
   }
   list_->currentItem()->setText(item->title());
-  four_up_->refresh_outlines();
+  if (!worker_ || !worker_->busy()) four_up_->refresh_outlines();  // else with the surface
 }
 
 void SurfaceView::add_surface() {

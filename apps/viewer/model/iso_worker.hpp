@@ -50,7 +50,7 @@ struct IsoResult {
 class IsoWorker {
  public:
   /// Coarse volumes have at most this many samples.
-  static constexpr std::int64_t kCoarseSamples = std::int64_t{1} << 19;
+  static constexpr std::int64_t kCoarseSamples = std::int64_t{1} << 18;
   /// Triangles of what is drawn while turning.
   static constexpr std::int64_t kDetailTriangles = 40'000;
 
