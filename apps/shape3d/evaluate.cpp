@@ -105,7 +105,25 @@ ClassifierResult judged(ClassificationResult result, const EvaluatedSet& set,
   judged.confusion =
       learning::confusion(truth, result.predicted, static_cast<int>(names.names.size()));
   judged.result = std::move(result);
+  judged.truth = std::move(truth);
   return judged;
+}
+
+std::vector<ComparedClassifiers> compared(const std::vector<ClassifierResult>& classifiers) {
+  std::vector<ComparedClassifiers> comparisons;
+  for (std::size_t i = 0; i < classifiers.size(); ++i) {
+    for (std::size_t j = i + 1; j < classifiers.size(); ++j) {
+      const ClassifierResult &a = classifiers[i], &b = classifiers[j];
+      // Models that are not counted are right for neither.
+      learning::Labels first = a.result.predicted, second = b.result.predicted;
+      for (std::size_t m = 0; m < a.truth.size(); ++m) {
+        if (a.truth[m] == learning::kUnlabelled) first[m] = second[m] = 0;
+      }
+      comparisons.push_back({a.result.name, b.result.name, a.result.length == b.result.length,
+                             learning::paired_test(a.truth, first, second)});
+    }
+  }
+  return comparisons;
 }
 
 // Methods whose distances are weighted: those that combine descriptors, or the only one.
@@ -176,6 +194,7 @@ void evaluate(const EvaluateArguments& arguments, const Settings& settings) {
         result.classification.push_back(judged(std::move(one), set, group, names));
       }
     }
+    result.comparisons = compared(result.classification);
     progress.stage("measuring " + group.name);
     std::vector<const RetrievalMethod*> all;
     for (const RetrievalMethod& method : methods) all.push_back(&method);
