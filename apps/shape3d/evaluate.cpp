@@ -83,8 +83,11 @@ std::string protocol_of(const EvaluateArguments& arguments, const EvaluatedSet& 
   return text + " What is fitted for a model has seen the other " +
          std::to_string(arguments.folds - 1) + " of " + std::to_string(arguments.folds) +
          " folds alone" +
-         (arguments.fold_by == "class" ? ": no model of its class, since folds hold whole classes."
-                                       : ", parameters included.");
+         (arguments.fold_by == "class"
+              ? ": no model of its class, since folds hold whole classes. It looks for its class "
+                "in its "
+                "own fold, of which nothing that is fitted for it has seen a model."
+              : ", parameters included.");
 }
 
 // The classifier's result against the labels of a group, models of unknown classes left out.
@@ -124,6 +127,27 @@ std::vector<ComparedClassifiers> compared(const std::vector<ClassifierResult>& c
     }
   }
   return comparisons;
+}
+
+// Where folds are libraries of their own, the mean of theirs.
+learning::ChanceLevel chance_of(const EvaluateArguments& arguments, const LabelGroup& group,
+                                const std::vector<int>& folds) {
+  if (arguments.fold_by != "class") return learning::chance_level(group.labels);
+  learning::ChanceLevel sum;
+  double queries = 0.0;
+  for (int fold = 0; fold < arguments.folds; ++fold) {
+    learning::Labels labels;
+    for (std::size_t i = 0; i < folds.size(); ++i) {
+      if (folds[i] == fold) labels.push_back(group.labels[i]);
+    }
+    const learning::ChanceLevel one = learning::chance_level(labels);
+    const auto count = static_cast<double>(labels.size());
+    sum.nearest_neighbour += count * one.nearest_neighbour;
+    sum.first_tier += count * one.first_tier;
+    sum.second_tier += count * one.second_tier;
+    queries += count;
+  }
+  return {sum.nearest_neighbour / queries, sum.first_tier / queries, sum.second_tier / queries};
 }
 
 // Methods whose distances are weighted: those that combine descriptors, or the only one.
@@ -179,7 +203,7 @@ void evaluate(const EvaluateArguments& arguments, const Settings& settings) {
   for (const LabelGroup& group : label_groups(set.test)) {
     GroupResult result;
     result.group = group;
-    result.chance = learning::chance_level(group.labels);
+    result.chance = chance_of(arguments, group, folds);
     weighted.emplace_back();
     if (arguments.svm || arguments.weighted) {
       for (ClassificationResult& one : classifications(
