@@ -20,8 +20,8 @@ using learning::Labels;
 using learning::SvmOptions;
 
 // γ in units of one over the variance of all columns together.
-const learning::SvmGrid kGrid{{2.0, 8.0, 32.0}, {0.25, 0.5, 1.0, 2.0}};
-constexpr int kSearchFolds = 5;
+const learning::SvmGrid kGrid{{2.0, 8.0}, {0.5, 1.0, 2.0}};
+constexpr int kSearchFolds = 3;
 constexpr int kMostNestedSearches = 10;
 constexpr int kMostColumns = 100;
 
@@ -209,8 +209,9 @@ std::vector<ClassificationResult> classifications(const EvaluateArguments& argum
                                             arguments.seed, threads)
                                   : cross_validated(input.test, group.labels, folds, classes,
                                                     wanted, arguments.seed, threads);
-    results.push_back({input.name, input.baseline, found.options.C, found.options.gamma,
-                       std::move(found.labels), std::move(found.probabilities)});
+    results.push_back({input.name, input.baseline, input.test.cols(), found.options.C,
+                       found.options.gamma, std::move(found.labels),
+                       std::move(found.probabilities)});
   }
   return results;
 }
