@@ -54,6 +54,10 @@ bool thread_not_started(const std::string& sentence) {
 }
 
 void add_shared_options(CLI::App& app, Settings& settings) {
+  if (!commands_of(app).empty()) {
+    for (CLI::App* command : commands_of(app)) add_shared_options(*command, settings);
+    return;
+  }
   app.add_flag("-q,--quiet", settings.quiet, "No report, no warnings, no progress; errors only");
   app.add_option("--threads", settings.threads,
                  "Threads to use; 0 stands for all processors (the default)")
@@ -84,6 +88,8 @@ int run_program(int argc, char** argv) {
       "  shape3d check bone.ply\n"
       "  shape3d render bone.ply -o bone.png\n"
       "  shape3d map spot.off -o sphere.off         a sphere that keeps angles\n"
+      "  shape3d library add shapes.db meshes/      a library of shapes to search\n"
+      "  shape3d search shapes.db query.off --sheet found.png\n"
       "'shape3d COMMAND --help' explains a command.");
   add_info(app, settings);
   add_extract(app, settings);
@@ -99,6 +105,9 @@ int run_program(int argc, char** argv) {
   add_wrap(app, settings);
   add_segment(app, settings);
   add_evaluate(app, settings);
+  add_library(app, settings);
+  add_search(app, settings);
+  add_distance(app, settings);
   for (CLI::App* command : commands_of(app)) add_shared_options(*command, settings);
   if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
     return fail(std::string("unknown command '") + argv[1] + "', expected " + command_names(app),

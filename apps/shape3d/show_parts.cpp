@@ -19,7 +19,7 @@
 #include "common/color_map.hpp"
 #include "common/raster.hpp"
 #include "common/text.hpp"
-#include "describe_mesh.hpp"
+#include "common/describe_mesh.hpp"
 
 namespace shape3d::apps {
 namespace {
