@@ -1,3 +1,4 @@
+#include "search_view.hpp"
 #include "surface_view.hpp"
 #include "view.hpp"
 #include "volume_view.hpp"
@@ -5,7 +6,7 @@
 namespace shape3d::apps::viewer {
 
 std::vector<View*> make_views(Document& document) {
-  return {new VolumeView(document), new SurfaceView(document)};
+  return {new VolumeView(document), new SurfaceView(document), new SearchView(document)};
 }
 
 }  // namespace shape3d::apps::viewer
