@@ -12,6 +12,7 @@
 #include "common/interrupt.hpp"
 #include "common/memory_limit.hpp"
 #include "common/text.hpp"
+#include "learning_commands.hpp"
 #include "mesh_commands.hpp"
 
 namespace shape3d::apps {
@@ -108,7 +109,10 @@ int run_program(int argc, char** argv) {
   add_library(app, settings);
   add_search(app, settings);
   add_distance(app, settings);
-  for (CLI::App* command : commands_of(app)) add_shared_options(*command, settings);
+  add_train(app, settings);
+  add_classify(app, settings);
+  add_map_collection(app, settings);
+  add_shared_options(app, settings);
   if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
     return fail(std::string("unknown command '") + argv[1] + "', expected " + command_names(app),
                 kUsage);
