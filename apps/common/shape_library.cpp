@@ -10,6 +10,7 @@
 
 #include "byte_source.hpp"
 #include "error.hpp"
+#include "interrupt.hpp"
 #include "shape_library_parts.hpp"
 #include "shape_library_schema.hpp"
 #include "sqlite.hpp"
@@ -40,6 +41,26 @@ std::optional<LibraryModel> first_model(Sqlite::Statement& statement) {
   LibraryModel model = model_of(statement);
   statement.reset();
   return model;
+}
+
+// Makes an empty library that appears under its name when it is complete: what another process
+// finds there is a library, however this one ends.
+void make_library(const std::string& path) {
+  const std::string unfinished = path + "-new";
+  std::error_code error;
+  const auto clear = [&] {
+    for (const char* tail : {"", "-wal", "-shm", "-journal"}) fs::remove(unfinished + tail, error);
+  };
+  clear();  // the remains of a process that was killed
+  try {
+    const RemoveOnInterrupt guard(unfinished);
+    make_schema(Sqlite(unfinished, Sqlite::Mode::create));
+    fs::rename(unfinished, path, error);
+    if (error) throw FileError(path, "cannot be written: " + error.message());
+  } catch (...) {
+    clear();
+    throw;
+  }
 }
 
 }  // namespace
@@ -94,25 +115,14 @@ ShapeLibrary::ShapeLibrary(const std::string& path, Access access)
       (!fs::exists(path, error) || (fs::is_regular_file(path, error) && fs::is_empty(path, error)));
   if (!fresh) static_cast<void>(readable_size(path));
   if (writes) state_->lock = std::make_unique<WriterLock>(path);
-  const Sqlite::Mode mode = fresh    ? Sqlite::Mode::create
-                            : writes ? Sqlite::Mode::write
-                                     : Sqlite::Mode::read;
-  try {
-    state_->database = std::make_unique<Sqlite>(path, mode);
-    if (fresh) {
-      state_->made = true;
-      make_schema(*state_->database);
-    } else {
-      check_schema(*state_->database);
-    }
-    if (writes) prepare_to_write(*state_->database);
-  } catch (...) {
-    if (fresh) {
-      state_->database.reset();
-      fs::remove(path, error);
-    }
-    throw;
+  if (fresh) {
+    make_library(path);
+    state_->made = true;
   }
+  state_->database =
+      std::make_unique<Sqlite>(path, writes ? Sqlite::Mode::write : Sqlite::Mode::read);
+  check_schema(*state_->database);
+  if (writes) prepare_to_write(*state_->database);
 }
 
 ShapeLibrary::~ShapeLibrary() {

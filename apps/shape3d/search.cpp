@@ -90,20 +90,25 @@ Searched search_coarse_to_fine(const SearchArguments& arguments, const ShapeLibr
   const std::vector<Match> shortlist = set.nearest(coarse_vector, static_cast<std::size_t>(count),
                                                    left_out(query), settings.threads);
   result.models = set.ids().size();
-  for (const Match& match : shortlist) {
-    const std::optional<Eigen::VectorXd> other = library.vector(match.id, spec);
+  LibraryVectors chosen;
+  std::vector<Eigen::VectorXd> vectors;
+  std::vector<std::int64_t> ids;
+  for (const Match& match : shortlist) ids.push_back(match.id);
+  std::sort(ids.begin(), ids.end());
+  for (const std::int64_t id : ids) {
+    std::optional<Eigen::VectorXd> other = library.vector(id, spec);
     if (!other) continue;
-    const double distance = norm_of(arguments) == learning::Norm::L1 ? (*other - vector).lpNorm<1>()
-                                                                     : (*other - vector).norm();
-    result.matches.push_back({match.id, distance});
+    chosen.ids.push_back(id);
+    vectors.push_back(std::move(*other));
   }
-  result.shortlist = result.matches.size();
-  std::sort(result.matches.begin(), result.matches.end(), [](const Match& a, const Match& b) {
-    return a.distance < b.distance || (a.distance == b.distance && a.id < b.id);
-  });
-  if (result.matches.size() > static_cast<std::size_t>(arguments.count)) {
-    result.matches.resize(static_cast<std::size_t>(arguments.count));
+  chosen.vectors.resize(static_cast<Eigen::Index>(vectors.size()), vector.size());
+  for (std::size_t row = 0; row < vectors.size(); ++row) {
+    chosen.vectors.row(static_cast<Eigen::Index>(row)) = vectors[row];
   }
+  result.shortlist = vectors.size();
+  result.matches =
+      SearchSet(std::move(chosen), norm_of(arguments))
+          .nearest(vector, static_cast<std::size_t>(arguments.count), {}, settings.threads);
   result.search_seconds = watch.lap();
   return result;
 }
