@@ -1,3 +1,4 @@
+#include "map_view.hpp"
 #include "search_view.hpp"
 #include "surface_view.hpp"
 #include "view.hpp"
@@ -6,7 +7,8 @@
 namespace shape3d::apps::viewer {
 
 std::vector<View*> make_views(Document& document) {
-  return {new VolumeView(document), new SurfaceView(document), new SearchView(document)};
+  return {new VolumeView(document), new SurfaceView(document), new SearchView(document),
+          new MapView(document)};
 }
 
 }  // namespace shape3d::apps::viewer
