@@ -27,19 +27,16 @@ library() {
   mv "$work/new.db" "$work/shapes.db"
 }
 
+# smaller FROM TO: 256 colours, a third of the bytes.
+smaller() { convert "$1" +dither -colors 256 -strip -define png:compression-level=9 "PNG8:$2"; }
+
 # draw NAME STATE FILE...: the whole window with a view of the files. Views that this viewer does not have are left out.
 draw() {
   local name=$1 state=$2 view=${1%%-*}
   shift 2
   local picture=$images/viewer-$name.png
   "$viewer" --offscreen --view "$view" --state "$state" --size 1280x720 -o "$work/$name.png" "$@"
-  # 256 colours: a third of the bytes, and no difference to the eye.
-  /usr/bin/python3 - "$work/$name.png" "$picture" <<'PYTHON'
-import sys
-from PIL import Image
-image = Image.open(sys.argv[1]).convert("RGB")
-image.quantize(256, dither=Image.Dither.NONE).save(sys.argv[2], optimize=True)
-PYTHON
+  smaller "$work/$name.png" "$picture"
   echo "docs/images/viewer-$name.png: $(stat --format %s "$picture") bytes"
 }
 
@@ -80,11 +77,7 @@ map() {
 
 sheet() {
   "$shape3d" render --sheet "$SHAPE3D_DATA/genus0" --size 1280x1000 -o "$work/sheet.png"
-  /usr/bin/python3 - "$work/sheet.png" "$images/contact-sheet.png" <<'PYTHON'
-import sys
-from PIL import Image
-Image.open(sys.argv[1]).convert("RGB").quantize(256, dither=Image.Dither.NONE).save(sys.argv[2], optimize=True)
-PYTHON
+  smaller "$work/sheet.png" "$images/contact-sheet.png"
 }
 
 has_view() { # NAME: the sentence for a wrong name lists the views

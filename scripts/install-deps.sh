@@ -17,7 +17,7 @@ packages=(
   xvfb xauth libgl1-mesa-dri                                     # pictures without a display
   catch2 libbenchmark-dev                                        # tests, benchmarks
   python3-nibabel python3-pydicom python3-numpy python3-h5py     # fixtures and checks of the tests
-  python3-scipy python3-pil                                      # scripts that write results and pictures
+  python3-scipy                                                  # scripts that write results
   imagemagick invesalius-examples libcgal-demo                   # demonstration: a real CT, meshes
 )
 

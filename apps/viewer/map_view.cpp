@@ -1,7 +1,9 @@
 #include "map_view.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <utility>
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -129,7 +131,7 @@ void MapView::open(const std::string& path) {
 
 void MapView::take_collection() {
   const bool other_map = read_ != nullptr || document_.collection_map().empty();
-  if (read_ || other_map) map_ = std::exchange(read_, nullptr);
+  if (other_map) map_ = std::exchange(read_, nullptr);
   take_library();
   if (other_map) {
     som_->set_map(map_);
