@@ -128,7 +128,7 @@ TEST_CASE("a click on a unit lists its shapes with pictures", "[viewer][map]") {
   const QImage inside = WindowFixture::grab(shown.grid->viewport())
                             .copy(shown.grid->picture_area(0).adjusted(2, 2, -2, -2));
   const int all = inside.width() * inside.height();
-  CHECK(count_color(inside, Qt::white, 2) < 19 * all / 20);
+  CHECK(count_color(inside, Qt::white, 2) < 97 * all / 100);
   CHECK(count_color(inside, Qt::white, 2) > all / 10);
   CHECK_THAT(shown.control<QLabel>("unit")->text().toStdString(), Contains("Row "));
 
