@@ -79,7 +79,7 @@ put mechanical anchor anchor_dense couplingdown fandisk handle joint part pinion
 put round blobby ellipsoid geosphere oblong sphere sphere966 larger_sphere
 put knot eight knot1 knot2 knot double-torus-example
 put box cube cube-meshed small_cube translated-cube beam cheese-box
-"$shape3d" library add shapes.db shapes/classes --class-from-folder --descriptor hsh:K=8 \
+"$shape3d" library add shapes.db shapes/classes --class-from-folder --descriptor hsh:K=8,unit=yes \
   --descriptor d2 --json library.json
 "$shape3d" search shapes.db shapes/classes/animal/elephant.off --sheet search.png --json search.json
 "$shape3d" distance shapes/classes/animal/bear.off shapes/classes/animal/bear_bis.off --align

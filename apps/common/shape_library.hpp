@@ -14,7 +14,7 @@
 namespace shape3d::apps {
 
 /// What models are described by when nothing else is said.
-inline constexpr const char* kDefaultDescriptor = "hsh:K=8";
+inline constexpr const char* kDefaultDescriptor = "hsh:K=8,unit=yes";
 
 /// A mesh of a library.
 struct LibraryModel {

@@ -12,7 +12,6 @@
 #include "common/describe_mesh.hpp"
 #include "common/error.hpp"
 #include "common/mesh_io.hpp"
-#include "common/shape_library.hpp"
 #include "common/surface_distance.hpp"
 #include "descriptor_arguments.hpp"
 #include "progress.hpp"
@@ -22,6 +21,8 @@ namespace shape3d::apps {
 namespace {
 
 using descriptors::Descriptor;
+
+constexpr const char* kPlainEnergies = "hsh:K=8";  // what (5.17) and (5.18) are about
 
 struct DistanceArguments {
   std::string a, b;
@@ -93,7 +94,7 @@ const descriptors::HshParameters* energies_of(const Descriptor& descriptor) {
 
 void distance(const DistanceArguments& arguments, const Settings& settings) {
   const std::vector<Descriptor> descriptors =
-      parse_descriptors(arguments.descriptors.empty() ? std::vector<std::string>{kDefaultDescriptor}
+      parse_descriptors(arguments.descriptors.empty() ? std::vector<std::string>{kPlainEnergies}
                                                       : arguments.descriptors);
   Progress progress(settings);
   progress.stage("reading the meshes");
@@ -152,9 +153,9 @@ void add_distance(CLI::App& app, Settings& settings) {
   command->add_option("A", arguments->a, "A mesh (.ply, .obj, .off, .stl, .vtp)")->required();
   command->add_option("B", arguments->b, "Another")->required();
   command
-      ->add_option("--descriptor", arguments->descriptors,
-                   std::string("Also by these descriptors, as of 'describe'; default: ") +
-                       kDefaultDescriptor)
+      ->add_option(
+          "--descriptor", arguments->descriptors,
+          std::string("Also by these descriptors, as of 'describe'; default: ") + kPlainEnergies)
       ->allow_extra_args(false)
       ->type_name("SPEC");
   command->add_flag("--align", arguments->align,
