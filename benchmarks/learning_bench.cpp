@@ -38,7 +38,7 @@ BENCHMARK_CAPTURE(som, batch, SomTraining::batch)
     ->UseRealTime();
 BENCHMARK_CAPTURE(som, sequential, SomTraining::sequential)
     ->ArgNames({"threads", "items", "numbers"})
-    ->Args({1, 10000, 306})
+    ->Args({1, 1000, 306})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     std::fputs("usage: svm_grid SET THREADS\n", stderr);
     return 2;
   }
-  const GeneratedSet set = gaussian_clouds(907, 45, 7, 0.35, 1);
+  const GeneratedSet set = gaussian_clouds(400, 45, 5, 0.35, 1);
   // svm-train knows nothing of scaling: it is given scaled numbers, and so are we.
   const Features X = fit_scaling(set.X, ScalingKind::standard).apply(set.X);
   std::FILE* file = std::fopen(argv[1], "w");

@@ -1,19 +1,44 @@
 #!/usr/bin/python3
-"""Makes docs/benchmarks/learning.md: medians of times.json in a folder, and the grid search beside svm-train.
+"""Searches a grid beside svm-train, and makes docs/benchmarks/learning.md.
 
-usage: benchmark_learning.py FOLDER SVM_GRID_PROGRAM
+usage: benchmark_learning.py grid FOLDER SVM_GRID_PROGRAM AT_ONCE   writes FOLDER/grid-AT_ONCE.json
+       benchmark_learning.py page FOLDER                           of these and FOLDER/times.json
 """
 import json
 import os
 import re
-import shutil
-import statistics
 import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-work, program = sys.argv[1:3]
+step, work = sys.argv[1:3]
+GRID = [(2.0 ** c, 2.0 ** g) for c in range(15, -6, -2) for g in range(3, -16, -2)]
+
+
+def one(pair):
+    command = ["svm-train", "-q", "-v", "5", "-c", repr(pair[0]), "-g", repr(pair[1]), os.path.join(work, "set")]
+    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    return float(re.search(r"Accuracy = ([\d.]+)%", text)[1]) / 100
+
+
+def search(program, at_once):
+    command = [program, os.path.join(work, "set"), str(at_once)]
+    ours = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    start = time.monotonic()
+    with ThreadPoolExecutor(at_once) as pool:
+        rates = list(pool.map(one, GRID))
+    seconds = time.monotonic() - start
+    best = max(range(len(GRID)), key=lambda i: rates[i])
+    theirs = {"seconds": seconds, "C": GRID[best][0], "gamma": GRID[best][1], "rate": rates[best]}
+    with open(os.path.join(work, f"grid-{at_once}.json"), "w", encoding="utf-8") as file:
+        json.dump({"ours": ours, "svm-train": theirs}, file)
+
+
+if step == "grid":
+    search(sys.argv[3], int(sys.argv[4]))
+    sys.exit()
+
 with open(os.path.join(work, "times.json"), encoding="utf-8") as file:
     report = json.load(file)
 context = report["context"]
@@ -21,29 +46,6 @@ medians = {}
 for run in report["benchmarks"]:
     if run.get("aggregate_name") == "median":
         medians[re.sub(r"(/real_time|_median|/repeats:\d+)", "", run["name"])] = run["real_time"]
-
-data = os.path.join(work, "set")
-GRID = [(2.0 ** c, 2.0 ** g) for c in range(15, -6, -2) for g in range(3, -16, -2)]
-
-
-def ours(threads):
-    line = subprocess.run([program, data, str(threads)], check=True, capture_output=True, text=True).stdout
-    return json.loads(line)
-
-
-def one(pair):
-    command = ["svm-train", "-q", "-v", "5", "-c", repr(pair[0]), "-g", repr(pair[1]), data]
-    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    return float(re.search(r"Accuracy = ([\d.]+)%", text)[1]) / 100
-
-
-def theirs(workers):
-    start = time.monotonic()
-    with ThreadPoolExecutor(workers) as pool:
-        rates = list(pool.map(one, GRID))
-    best = max(range(len(GRID)), key=lambda i: rates[i])
-    return {"seconds": time.monotonic() - start, "C": GRID[best][0], "gamma": GRID[best][1], "rate": rates[best]}
-
 
 print("# Times of maps and machines\n")
 print("`scripts/benchmark-learning.sh` writes this page.\n")
@@ -73,15 +75,14 @@ for threads in (1, 2):
     print(f"| predicting the 907 | {threads} | {medians[f'svm_prediction/threads:{threads}']:.1f} |")
 
 print("\n## Grid search\n")
-print(f"C = 2^−5 … 2^15 with γ = 2^−15 … 2^3, {len(GRID)} pairs, five-fold cross-validation of 907 generated vectors of "
-      "45 numbers in 7 classes, beside `svm-train -v 5` of libsvm, called once for each pair, as its grid.py does. "
-      "Runs alternate; the ratio is of the medians. Folds differ, so the best pair may, too.\n")
-if shutil.which("svm-train") is None:
-    print("svm-train (package libsvm-tools) is not installed: not compared.")
-    sys.exit()
+print(f"C = 2^−5 … 2^15 with γ = 2^−15 … 2^3, {len(GRID)} pairs, five-fold cross-validation of 400 generated vectors of "
+      "45 numbers in 5 classes, beside `svm-train -v 5` of libsvm, called once for each pair, as its grid.py does. One "
+      "run of each, the second right after the first. Folds differ, so the best pair may, too.\n")
 print("| at once | Shape3D s | svm-train s | ratio | Shape3D best C, γ, rate | svm-train best |\n|--:|--:|--:|--:|:--|:--|")
 for count in (1, 2):
-    runs = [(ours(count), theirs(count)) for _ in range(3 if count == 2 else 1)]
-    mine, other = (statistics.median(run[i]["seconds"] for run in runs) for i in (0, 1))
-    texts = [f"{r['C']:g}, {r['gamma']:g}, {100 * r['rate']:.1f} %" for r in runs[0]]
-    print(f"| {count} | {mine:.2f} | {other:.2f} | {mine / other:.2f} | {texts[0]} | {texts[1]} |")
+    with open(os.path.join(work, f"grid-{count}.json"), encoding="utf-8") as file:
+        runs = json.load(file)
+    mine, other = runs["ours"], runs["svm-train"]
+    texts = [f"{r['C']:g}, {r['gamma']:g}, {100 * r['rate']:.1f} %" for r in (mine, other)]
+    print(f"| {count} | {mine['seconds']:.2f} | {other['seconds']:.2f} | {mine['seconds'] / other['seconds']:.2f} "
+          f"| {texts[0]} | {texts[1]} |")
