@@ -12,6 +12,7 @@
 #include "common/interrupt.hpp"
 #include "common/memory_limit.hpp"
 #include "common/text.hpp"
+#include "learning_commands.hpp"
 #include "mesh_commands.hpp"
 
 namespace shape3d::apps {
@@ -54,6 +55,10 @@ bool thread_not_started(const std::string& sentence) {
 }
 
 void add_shared_options(CLI::App& app, Settings& settings) {
+  if (!commands_of(app).empty()) {
+    for (CLI::App* command : commands_of(app)) add_shared_options(*command, settings);
+    return;
+  }
   app.add_flag("-q,--quiet", settings.quiet, "No report, no warnings, no progress; errors only");
   app.add_option("--threads", settings.threads,
                  "Threads to use; 0 stands for all processors (the default)")
@@ -99,7 +104,10 @@ int run_program(int argc, char** argv) {
   add_wrap(app, settings);
   add_segment(app, settings);
   add_evaluate(app, settings);
-  for (CLI::App* command : commands_of(app)) add_shared_options(*command, settings);
+  add_train(app, settings);
+  add_classify(app, settings);
+  add_map_collection(app, settings);
+  add_shared_options(app, settings);
   if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
     return fail(std::string("unknown command '") + argv[1] + "', expected " + command_names(app),
                 kUsage);

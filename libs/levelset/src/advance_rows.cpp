@@ -46,7 +46,8 @@ SHAPE3D_LEVELSET_INLINE void advance_nodes(const float* __restrict c, std::int64
                                            std::int64_t slice, const float* __restrict speed,
                                            const float* __restrict factor, int count,
                                            const Spacings& h, const Step& step,
-                                           float* __restrict out) {
+                                           float* __restrict out, int* __restrict crossed,
+                                           int* __restrict inside) {
   const float *ym = c - row, *yp = c + row, *zm = c - slice, *zp = c + slice;
   const float ix = h.inverse[0], iy = h.inverse[1], iz = h.inverse[2];
   const float dt = step.dt, limit = step.limit, bound = step.max_curvature;
@@ -62,95 +63,115 @@ SHAPE3D_LEVELSET_INLINE void advance_nodes(const float* __restrict c, std::int64
       const float bent = curvature<Term>(c, i, row, slice, ix, iy, iz, bound);
       change += epsilon * factor[i] * bent;
     }
-    out[i] = std::min(std::max(c[i] + dt * change, -limit), limit);
+    const float after = std::min(std::max(c[i] + dt * change, -limit), limit);
+    const int was = c[i] <= 0.0F ? 1 : 0, is = after <= 0.0F ? 1 : 0;
+    crossed[i] += was ^ is;
+    inside[i] += is - was;
+    out[i] = after;
   }
 }
 
-SHAPE3D_LEVELSET_INLINE void advance_any(const float* psi, std::int64_t row, std::int64_t slice,
-                                         const float* advance, const float* factor, int count,
-                                         const Spacings& h, const Step& step, float* out) {
+template <CurvatureTerm Term>
+SHAPE3D_LEVELSET_INLINE Change advance_tile(const TileRows& rows, RowMask mask, const float* psi,
+                                            const float* speed, const float* factor,
+                                            const Spacings& h, const Step& step, float* out) {
+  int crossed[kTileX] = {}, inside[kTileX] = {};
+  for (RowMask rest = mask & rows.all; rest != 0; rest &= rest - 1) {
+    const int bit = __builtin_ctzll(rest), j = bit & 7, k = bit >> 3;
+    const std::int64_t at = rows.padded + j * rows.row + k * rows.slice,
+                       dense = rows.dense + j * rows.dense_row + k * rows.dense_slice;
+    if (rows.count == kTileX) {
+      advance_nodes<Term>(psi + at, rows.row, rows.slice, speed + dense, factor + dense, kTileX, h,
+                          step, out + at, crossed, inside);
+    } else {
+      advance_nodes<Term>(psi + at, rows.row, rows.slice, speed + dense, factor + dense, rows.count,
+                          h, step, out + at, crossed, inside);
+    }
+  }
+  Change change;
+  for (int lane = 0; lane < kTileX; ++lane) {
+    change.crossed += crossed[lane];
+    change.inside += inside[lane];
+  }
+  return change;
+}
+
+SHAPE3D_LEVELSET_INLINE Change advance_any(const TileRows& rows, RowMask mask, const float* psi,
+                                           const float* speed, const float* factor,
+                                           const Spacings& h, const Step& step, float* out) {
   switch (step.term) {
-    case CurvatureTerm::none:
-      return advance_nodes<CurvatureTerm::none>(psi, row, slice, advance, factor, count, h, step,
-                                                out);
     case CurvatureTerm::mean:
-      return advance_nodes<CurvatureTerm::mean>(psi, row, slice, advance, factor, count, h, step,
-                                                out);
+      return advance_tile<CurvatureTerm::mean>(rows, mask, psi, speed, factor, h, step, out);
     case CurvatureTerm::minimal:
-      return advance_nodes<CurvatureTerm::minimal>(psi, row, slice, advance, factor, count, h, step,
-                                                   out);
+      return advance_tile<CurvatureTerm::minimal>(rows, mask, psi, speed, factor, h, step, out);
+    case CurvatureTerm::none:
+      break;
   }
+  return advance_tile<CurvatureTerm::none>(rows, mask, psi, speed, factor, h, step, out);
 }
 
-SHAPE3D_LEVELSET_INLINE void add_to(const float* __restrict before, const float* __restrict after,
-                                    int count, float slope, Change& change) {
-  int crossed = 0, inside = 0;
+SHAPE3D_LEVELSET_INLINE void measure_nodes(const float* __restrict psi, int count, float w,
+                                           float slope, float* __restrict volume,
+                                           int* __restrict near, int* __restrict inside) {
   for (int i = 0; i < count; ++i) {
-    crossed += (before[i] <= 0.0F) != (after[i] <= 0.0F) ? 1 : 0;
-    inside += after[i] <= 0.0F ? 1 : 0;
+    volume[i] += std::min(std::max(0.5F - psi[i] * slope, 0.0F), 1.0F);
+    near[i] += std::abs(psi[i]) < w ? 1 : 0;
+    inside[i] += psi[i] <= 0.0F ? 1 : 0;
   }
-  change.crossed += crossed;
-  change.inside += inside;
-  const auto part = [slope](float psi) {
-    return std::min(std::max(0.5F - psi * slope, 0.0F), 1.0F);
-  };
-  float lanes[16];
-  std::copy_n(change.lanes, 16, lanes);
-  int i = 0;
-  for (; i + 16 <= count; i += 16)
-    for (int lane = 0; lane < 16; ++lane) lanes[lane] += part(after[i + lane]);
-  for (int lane = 0; i < count; ++i, ++lane) lanes[lane] += part(after[i]);
-  std::copy_n(lanes, 16, change.lanes);
 }
 
-SHAPE3D_LEVELSET_INLINE int near_nodes(const float* psi, int count, float limit) {
-  int found = 0;
-  for (int i = 0; i < count; ++i) found += std::abs(psi[i]) < limit ? 1 : 0;
-  return found;
+SHAPE3D_LEVELSET_INLINE Measures measure_tile(const TileRows& rows, RowMask mask, const float* psi,
+                                              float w) {
+  const float slope = 0.5F / w;
+  float volume[kTileX] = {};
+  int near[kTileX] = {}, inside[kTileX] = {};
+  for (RowMask rest = mask & rows.all; rest != 0; rest &= rest - 1) {
+    const int bit = __builtin_ctzll(rest);
+    const float* row = psi + rows.padded + (bit & 7) * rows.row + (bit >> 3) * rows.slice;
+    if (rows.count == kTileX) {
+      measure_nodes(row, kTileX, w, slope, volume, near, inside);
+    } else {
+      measure_nodes(row, rows.count, w, slope, volume, near, inside);
+    }
+  }
+  Measures sum;
+  for (int lane = 0; lane < kTileX; ++lane) {
+    sum.volume += static_cast<double>(volume[lane]);
+    sum.near += near[lane];
+    sum.inside += inside[lane];
+  }
+  return sum;
 }
 
 #if SHAPE3D_LEVELSET_X86
-SHAPE3D_LEVELSET_TARGET_AVX2 int near_avx2(const float* psi, int count, float limit) {
-  return near_nodes(psi, count, limit);
+SHAPE3D_LEVELSET_TARGET_AVX2 Change advance_avx2(const TileRows& rows, RowMask mask,
+                                                 const float* psi, const float* speed,
+                                                 const float* factor, const Spacings& h,
+                                                 const Step& step, float* out) {
+  return advance_any(rows, mask, psi, speed, factor, h, step, out);
 }
-SHAPE3D_LEVELSET_TARGET_AVX2 void advance_avx2(const float* psi, std::int64_t row,
-                                               std::int64_t slice, const float* advance,
-                                               const float* factor, int count, const Spacings& h,
-                                               const Step& step, float* out) {
-  advance_any(psi, row, slice, advance, factor, count, h, step, out);
-}
-SHAPE3D_LEVELSET_TARGET_AVX2 void change_avx2(const float* before, const float* after, int count,
-                                              float slope, Change& change) {
-  add_to(before, after, count, slope, change);
+SHAPE3D_LEVELSET_TARGET_AVX2 Measures measure_avx2(const TileRows& rows, RowMask mask,
+                                                   const float* psi, float w) {
+  return measure_tile(rows, mask, psi, w);
 }
 #endif
-int near_portable(const float* psi, int count, float limit) {
-  return near_nodes(psi, count, limit);
+Change advance_portable(const TileRows& rows, RowMask mask, const float* psi, const float* speed,
+                        const float* factor, const Spacings& h, const Step& step, float* out) {
+  return advance_any(rows, mask, psi, speed, factor, h, step, out);
 }
-void advance_portable(const float* psi, std::int64_t row, std::int64_t slice, const float* advance,
-                      const float* factor, int count, const Spacings& h, const Step& step,
-                      float* out) {
-  advance_any(psi, row, slice, advance, factor, count, h, step, out);
-}
-void change_portable(const float* before, const float* after, int count, float slope,
-                     Change& change) {
-  add_to(before, after, count, slope, change);
+Measures measure_portable(const TileRows& rows, RowMask mask, const float* psi, float w) {
+  return measure_tile(rows, mask, psi, w);
 }
 
 }  // namespace
 
-void advance_row(const float* psi, std::int64_t row, std::int64_t slice, const float* advance,
-                 const float* factor, int count, const Spacings& spacings, const Step& step,
-                 float* out) {
-  SHAPE3D_LEVELSET_DISPATCH(advance, psi, row, slice, advance, factor, count, spacings, step, out);
+Change advance_rows(const TileRows& rows, RowMask mask, const float* psi, const float* advance,
+                    const float* factor, const Spacings& spacings, const Step& step, float* out) {
+  return SHAPE3D_LEVELSET_DISPATCH(advance, rows, mask, psi, advance, factor, spacings, step, out);
 }
 
-int count_near(const float* psi, int count, float limit) {
-  return SHAPE3D_LEVELSET_DISPATCH(near, psi, count, limit);
-}
-
-void add_change(const float* before, const float* after, int count, float slope, Change& change) {
-  SHAPE3D_LEVELSET_DISPATCH(change, before, after, count, slope, change);
+Measures measure_rows(const TileRows& rows, RowMask mask, const float* psi, float w) {
+  return SHAPE3D_LEVELSET_DISPATCH(measure, rows, mask, psi, w);
 }
 
 }  // namespace shape3d::levelset::detail

@@ -16,23 +16,26 @@ struct Step {
   CurvatureTerm term = CurvatureTerm::none;
 };
 
-/// out = ψ − Δt·(advance·|∇ψ|_upwind − factor·ε·κ·|∇ψ|_central) for a row of nodes.
+/// Nodes of a tile that changed sides in a step.
+struct Change {
+  int crossed = 0;  ///< All of them.
+  int inside = 0;   ///< Those that came inside, less those that left; zero belongs to the inside.
+};
+
+/// out = ψ − Δt·(advance·|∇ψ|_upwind − factor·ε·κ·|∇ψ|_central) in the rows of a mask.
 ///
 /// |∇ψ|_upwind by Godunov: of the one-sided differences along an axis, that which looks against the
-/// motion of the front. `row` and `slice` are the strides of the padded field of ψ.
-void advance_row(const float* psi, std::int64_t row, std::int64_t slice, const float* advance,
-                 const float* factor, int count, const Spacings& spacings, const Step& step,
-                 float* out);
+/// motion of the front.
+/// @param psi  Padded, as `out`; `advance` and `factor` are dense.
+Change advance_rows(const TileRows& rows, RowMask mask, const float* psi, const float* advance,
+                    const float* factor, const Spacings& spacings, const Step& step, float* out);
 
-/// The number of nodes of a row with |ψ| < limit.
-int count_near(const float* psi, int count, float limit);
-
-/// What changed in the nodes of a row, summed in an order that no instruction set changes.
-struct Change {
-  int crossed = 0;       ///< Nodes that changed sides; zero belongs to the inside.
-  int inside = 0;        ///< Nodes with ψ ≤ 0.
-  float lanes[16] = {};  ///< Σ clamp(½ − ψ·slope, 0, 1), the volume inside in nodes, in 16 parts.
+/// Sums over the nodes of some rows, in an order that no instruction set changes.
+struct Measures {
+  int inside = 0;       ///< Nodes with ψ ≤ 0.
+  int near = 0;         ///< Nodes with |ψ| < w.
+  double volume = 0.0;  ///< Σ clamp(½ − ψ/2w, 0, 1), in nodes.
 };
-void add_change(const float* before, const float* after, int count, float slope, Change& change);
+Measures measure_rows(const TileRows& rows, RowMask mask, const float* psi, float w);
 
 }  // namespace shape3d::levelset::detail

@@ -27,7 +27,7 @@ Field pad_image(const Lattice& lattice, const ImageView& image, int threads) {
 }  // namespace
 
 BoundaryDistance::BoundaryDistance(const ImageView& image, const IntensityModel& model,
-                                   double limit, int passes, int threads)
+                                   double limit, int passes, std::int64_t max_samples, int threads)
     : lattice_(image.grid()),
       model_(model),
       limit_(static_cast<float>(limit)),
@@ -39,70 +39,100 @@ BoundaryDistance::BoundaryDistance(const ImageView& image, const IntensityModel&
       from_(Field::Constant(lattice_.padded.size(), kFar)),
       to_(from_) {
   const auto count = static_cast<std::size_t>(lattice_.tiles.size());
-  rows_.assign(count, 0);
+  crossed_.resize(count);
+  choose_tiles(max_samples);
+  rows_.assign(static_cast<std::size_t>(passes) + 1, std::vector<RowMask>(count, 0));
   ranges_.resize(kRows * count);
-  const std::int64_t row = lattice_.padded.row, slice = lattice_.padded.slice;
   parallel_for(lattice_.tiles.size(), threads, [&](std::int64_t t) {
-    const Tile tile = lattice_.tiles[t];
-    for (std::int64_t k = tile.z0; k < tile.z1; ++k) {
-      for (std::int64_t j = tile.y0; j < tile.y1; ++j) {
-        const float* center = intensity_.data() + lattice_.padded.index(tile.x0, j, k);
-        const std::int64_t nodes = tile.x1 - tile.x0;
-        Range range{std::min(center[-1], center[nodes]), std::max(center[-1], center[nodes])};
-        for (const std::int64_t offset : {std::int64_t{0}, -row, row, -slice, slice}) {
-          const Eigen::Map<const Field> nearby(center + offset, nodes);
-          range.least = std::min(range.least, nearby.minCoeff());
-          range.greatest = std::max(range.greatest, nearby.maxCoeff());
+    const TileRows rows = lattice_.rows(lattice_.tiles[t]);
+    for_rows(rows, kAllRows, [&](std::int64_t at, std::int64_t /*dense*/, int bit) {
+      const float* center = intensity_.data() + at;
+      float least[kTileX + 2], greatest[kTileX + 2];
+      for (int i = -1; i <= rows.count; ++i) least[i + 1] = greatest[i + 1] = center[i];
+      for (const std::int64_t offset : {-rows.row, rows.row, -rows.slice, rows.slice}) {
+        for (int i = 0; i < rows.count; ++i) {
+          least[i + 1] = std::min(least[i + 1], center[i + offset]);
+          greatest[i + 1] = std::max(greatest[i + 1], center[i + offset]);
         }
-        ranges_[kRows * t + (j - tile.y0) + kTileY * (k - tile.z0)] = range;
       }
-    }
+      const auto range = [&](int first, int last) {
+        return Range{*std::min_element(least + first, least + last),
+                     *std::max_element(greatest + first, greatest + last)};
+      };
+      const int middle = std::min(rows.count, 4), end = rows.count + 2;
+      ranges_[kRows * t + bit] = {range(0, middle + 2), range(middle, end)};
+    });
   });
 }
 
-/// The rows with nodes beside the boundary, and those as many passes away.
+void BoundaryDistance::choose_tiles(std::int64_t max_samples) {
+  const std::int64_t size = lattice_.grid.size();
+  const std::int64_t every = max_samples > 0 ? (size + max_samples - 1) / max_samples : 1;
+  constexpr std::int64_t kBar = 32;
+  wanted_.resize(crossed_.size());
+  allowed_.assign(crossed_.size(), kAllRows);
+  for (std::int64_t t = 0; t < lattice_.tiles.size(); ++t) {
+    const Tile tile = lattice_.tiles[t];
+    wanted_[t] = (tile.y0 / kBar + every / 2 * (tile.z0 / kBar)) % every == 0 ? 1 : 0;
+  }
+  if (every == 1) return;
+  parallel_for(lattice_.tiles.size(), threads_, [&](std::int64_t t) {
+    RowReach reach(lattice_.tiles, t,
+                   [&](std::int64_t tile) { return wanted_[tile] != 0 ? kAllRows : RowMask{0}; });
+    for (int pass = 0; pass < std::min(passes_, 8); ++pass) reach.grow(true, true);
+    allowed_[t] = reach.mask();
+  });
+}
+
+/// The rows with nodes beside the boundary, and those up to as many passes away.
 void BoundaryDistance::find_rows(double lambda, const std::vector<double>& levels) {
   lambda_ = lambda;
   parallel_for(lattice_.tiles.size(), threads_, [&](std::int64_t t) {
-    const Tile tile = lattice_.tiles[t];
-    RowMask mask = 0;
-    for (std::int64_t k = 0; k < tile.z1 - tile.z0; ++k) {
-      for (std::int64_t j = 0; j < tile.y1 - tile.y0; ++j) {
-        const std::int64_t place = j + kTileY * k;
-        const Range& range = ranges_[kRows * t + place];
-        for (const double level : levels) {
-          if (static_cast<double>(range.least) <= level &&
-              level <= static_cast<double>(range.greatest))
-            mask |= RowMask{1} << place;
-        }
+    HalfRows crossed;
+    const RowMask all = lattice_.rows(lattice_.tiles[t]).all & allowed_[t];
+    for (RowMask rest = all; rest != 0; rest &= rest - 1) {
+      const int bit = __builtin_ctzll(rest);
+      const RowRanges& ranges = ranges_[kRows * t + bit];
+      for (const double level : levels) {
+        if (ranges.low.holds(level)) crossed.low |= RowMask{1} << bit;
+        if (ranges.high.holds(level)) crossed.high |= RowMask{1} << bit;
       }
     }
-    rows_[t] = mask;
+    crossed_[t] = crossed;
   });
-  std::vector<RowMask> before;
-  for (int pass = 0; pass < passes_; ++pass) {
-    before = rows_;
-    for (std::size_t t = 0; t < rows_.size(); ++t)
-      rows_[t] = lattice_.tiles.with_neighbours(before, static_cast<std::int64_t>(t));
+  const auto halves = [&](std::int64_t t) { return crossed_[t]; };
+  for (int pass = 0; pass < passes_;) {
+    // Up to 8 passes are found at a time; along x they are not told apart.
+    const int most = std::min(passes_ - pass, 8);
+    const std::vector<RowMask>& from = rows_[pass];
+    parallel_for(lattice_.tiles.size(), threads_, [&](std::int64_t t) {
+      RowReach reach(lattice_.tiles, t, [&](std::int64_t tile) {
+        if (pass == 0) return reach_along_x(lattice_.tiles, tile, most, halves);
+        const auto whole = [&](std::int64_t other) { return HalfRows{from[other], from[other]}; };
+        return reach_along_x(lattice_.tiles, tile, most, whole);
+      });
+      if (pass == 0) rows_[0][t] = crossed_[t].low | crossed_[t].high;
+      for (int n = 1; n <= most; ++n) {
+        reach.grow(true, true);
+        rows_[pass + n][t] = reach.mask() & allowed_[t];
+      }
+    });
+    pass += most;
   }
   tiles_.clear();
-  for (std::size_t t = 0; t < rows_.size(); ++t)
-    if (rows_[t] != 0) tiles_.push_back(static_cast<std::int64_t>(t));
+  for (std::size_t t = 0; t < crossed_.size(); ++t)
+    if (rows_.back()[t] != 0) tiles_.push_back(static_cast<std::int64_t>(t));
 }
 
 const std::vector<std::int64_t>& BoundaryDistance::compute(double lambda,
                                                            const std::vector<double>& levels) {
   // What was computed before must not bound what is computed now.
-  const auto skip = [](std::int64_t, std::int64_t, int) {};
   parallel_for(static_cast<std::int64_t>(tiles_.size()), threads_, [&](std::int64_t n) {
-    const std::int64_t t = tiles_[n];
-    lattice_.for_rows(
-        lattice_.tiles[t], rows_[t],
-        [&](std::int64_t row, std::int64_t /*dense*/, int nodes) {
-          std::fill_n(from_.data() + row, nodes, kFar);
-          std::fill_n(to_.data() + row, nodes, kFar);
-        },
-        skip);
+    const TileRows nodes = lattice_.rows(lattice_.tiles[tiles_[n]]);
+    for_rows(nodes, rows(tiles_[n]), [&](std::int64_t row, std::int64_t /*dense*/, int) {
+      std::fill_n(from_.data() + row, nodes.count, kFar);
+      std::fill_n(to_.data() + row, nodes.count, kFar);
+    });
   });
   find_rows(lambda, levels);
   const auto count = static_cast<std::int64_t>(tiles_.size());
@@ -122,13 +152,20 @@ const std::vector<std::int64_t>& BoundaryDistance::compute(double lambda,
     level = {0.0F, -1.0F};
   }
   parallel_for(count, threads_, [&](std::int64_t n) {
-    tile_distance_beside(lattice_, lattice_.tiles[tiles_[n]], rows_[tiles_[n]], level, limit_,
-                         Far::cut, field->data(), from_.data());
+    const Tile tile = lattice_.tiles[tiles_[n]];
+    const TileRows nodes = lattice_.rows(tile);
+    const RowMask all = rows(tiles_[n]), first = rows_[std::min(passes_, 1)][tiles_[n]];
+    distance_beside(nodes, all, field->data(), level, lattice_.spacings, limit_, Far::cut,
+                    from_.data());
+    copy_rows(nodes, all & ~first, from_.data(), to_.data());
+    set_ghosts(lattice_, tile, from_.data());
   });
-  for (int pass = 0; pass < passes_; ++pass) {
+  for (int pass = 1; pass <= passes_; ++pass) {
     parallel_for(count, threads_, [&](std::int64_t n) {
-      tile_relax(lattice_, lattice_.tiles[tiles_[n]], rows_[tiles_[n]], false, limit_, from_.data(),
-                 to_.data());
+      const Tile tile = lattice_.tiles[tiles_[n]];
+      relax_distance(lattice_.rows(tile), rows_[pass][tiles_[n]], from_.data(), lattice_.spacings,
+                     limit_, to_.data());
+      set_ghosts(lattice_, tile, to_.data());
     });
     std::swap(from_, to_);
   }

@@ -13,8 +13,10 @@ class BoundaryDistance {
  public:
   /// @param limit  Distances are cut at this, mm.
   /// @param passes  Nodes away from those beside the boundary that get a distance.
+  /// @param max_samples  Only so many samples are wanted, about: bars of 32 × 32 rows, evenly
+  ///                     spread; 0: all.
   BoundaryDistance(const ImageView& image, const IntensityModel& model, double limit, int passes,
-                   int threads);
+                   std::int64_t max_samples, int threads);
 
   [[nodiscard]] const Lattice& lattice() const { return lattice_; }
 
@@ -24,12 +26,15 @@ class BoundaryDistance {
   const std::vector<std::int64_t>& compute(double lambda, const std::vector<double>& levels);
   /// Signed distance, padded: negative inside.
   [[nodiscard]] const Field& field() const { return from_; }
-  /// By tile: the rows that were computed.
-  [[nodiscard]] const std::vector<RowMask>& rows() const { return rows_; }
+  /// The rows of a tile that were computed.
+  [[nodiscard]] RowMask rows(std::int64_t tile) const { return rows_.back()[tile]; }
+  /// Whether the samples of a tile are wanted.
+  [[nodiscard]] bool wanted(std::int64_t tile) const { return wanted_[tile] != 0; }
   /// −1 or 1: the side on which a dense row lies that was not computed.
   [[nodiscard]] float side(std::int64_t padded_row) const;
 
  private:
+  void choose_tiles(std::int64_t max_samples);
   void find_rows(double lambda, const std::vector<double>& levels);
 
   Lattice lattice_;
@@ -43,9 +48,18 @@ class BoundaryDistance {
   Field from_, to_;
   struct Range {
     float least, greatest;
+    [[nodiscard]] bool holds(double level) const {
+      return static_cast<double>(least) <= level && level <= static_cast<double>(greatest);
+    }
   };
-  std::vector<Range> ranges_;  // by tile and row: of the row and the nodes beside it
-  std::vector<RowMask> rows_;
+  struct RowRanges {
+    Range low, high;
+  };
+  std::vector<RowRanges> ranges_;  // by tile and row: of half a row and the nodes beside it
+  std::vector<char> wanted_;       // by tile
+  std::vector<RowMask> allowed_;   // by tile: rows that have a say in the wanted ones
+  std::vector<HalfRows> crossed_;  // by tile: halves of rows with a node beside the boundary
+  std::vector<std::vector<RowMask>> rows_;  // by passes and tile: the rows that many nodes away
   std::vector<std::int64_t> tiles_;
   double lambda_ = 0.0;
 };

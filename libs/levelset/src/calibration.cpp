@@ -38,15 +38,21 @@ class OverlapMeter {
                const CalibrationOptions& options, int threads)
       : width_(width_or_default(options.boundary_width, image.grid())),
         distance_(image, model, kOverlapReach * width_, overlap_passes(width_, image.grid()),
-                  threads),
+                  options.max_samples, threads),
         gradient_(gradient),
         overlap_(options.overlap),
         threads_(threads) {
-    std::vector<double> parts(static_cast<std::size_t>(image.dims[2]));
-    const std::int64_t slice = image.dims[0] * image.dims[1];
-    detail::parallel_for(image.dims[2], threads, [&](std::int64_t k) {
-      parts[static_cast<std::size_t>(k)] =
-          gradient.segment(k * slice, slice).cast<double>().square().sum();
+    const detail::Lattice& lattice = distance_.lattice();
+    std::vector<double> parts(static_cast<std::size_t>(lattice.tiles.size()), 0.0);
+    detail::parallel_for(lattice.tiles.size(), threads, [&](std::int64_t t) {
+      if (!distance_.wanted(t)) return;
+      const detail::TileRows rows = lattice.rows(lattice.tiles[t]);
+      double sum = 0.0;
+      detail::for_rows(rows, detail::kAllRows, [&](std::int64_t, std::int64_t dense, int) {
+        const float* row = gradient.data() + dense;
+        sum += static_cast<double>(detail::add_products(row, row, rows.count).bb);
+      });
+      parts[static_cast<std::size_t>(t)] = sum;
     });
     for (const double part : parts) gradient_square_ += part;
   }
@@ -59,17 +65,18 @@ class OverlapMeter {
     detail::parallel_for(static_cast<std::int64_t>(tiles.size()), threads_, [&](std::int64_t n) {
       double product = 0.0, square = 0.0;
       const std::int64_t t = tiles[static_cast<std::size_t>(n)];
-      lattice.for_rows(
-          lattice.tiles[t], distance_.rows()[static_cast<std::size_t>(t)],
-          [&](std::int64_t row, std::int64_t dense, int count) {
-            float y[detail::kTileX];
-            std::copy_n(distance_.field().data() + row, count, y);
-            detail::bell(count, static_cast<float>(1.0 / width_), limit, y);
-            const detail::Products sums = detail::add_products(gradient_.data() + dense, y, count);
-            product += static_cast<double>(sums.ab);
-            square += static_cast<double>(sums.bb);
-          },
-          [](std::int64_t, std::int64_t, int) {});
+      if (!distance_.wanted(t)) return;
+      const detail::TileRows rows = lattice.rows(lattice.tiles[t]);
+      detail::for_rows(rows, distance_.rows(t),
+                       [&](std::int64_t row, std::int64_t dense, int /*bit*/) {
+                         float y[detail::kTileX];
+                         std::copy_n(distance_.field().data() + row, rows.count, y);
+                         detail::bell(rows.count, static_cast<float>(1.0 / width_), limit, y);
+                         const detail::Products sums =
+                             detail::add_products(gradient_.data() + dense, y, rows.count);
+                         product += static_cast<double>(sums.ab);
+                         square += static_cast<double>(sums.bb);
+                       });
       products[static_cast<std::size_t>(n)] = product;
       squares[static_cast<std::size_t>(n)] = square;
     });
@@ -163,6 +170,7 @@ void check(const ImageView& image, const Field& gradient, double misfit,
   require(options.coarse_samples >= 3 && options.coarse_samples % 2 == 1, "coarse_samples",
           options.coarse_samples, "an odd number of at least 3");
   require(options.refinements >= 0, "refinements", options.refinements, "0 or more");
+  require(options.max_samples >= 0, "max_samples", options.max_samples, "0 (all) or more");
 }
 
 }  // namespace
@@ -244,19 +252,19 @@ Field boundary_distance(const ImageView& image, const IntensityModel& model, dou
   // Distance spreads by one node a pass, along the diagonal of a cell by one in three.
   const int passes = static_cast<int>(
       std::min(std::ceil(std::sqrt(3.0) * limit / image.spacing.minCoeff()), 64.0));
-  detail::BoundaryDistance distance(image, model, limit, passes, threads);
+  detail::BoundaryDistance distance(image, model, limit, passes, 0, threads);
   distance.compute(lambda, model.levels(lambda));
   const detail::Lattice& lattice = distance.lattice();
   Field result(lattice.grid.size());
   detail::parallel_for(lattice.tiles.size(), threads, [&](std::int64_t t) {
-    lattice.for_rows(
-        lattice.tiles[t], distance.rows()[static_cast<std::size_t>(t)],
-        [&](std::int64_t row, std::int64_t dense, int count) {
-          std::copy_n(distance.field().data() + row, count, result.data() + dense);
-        },
-        [&](std::int64_t row, std::int64_t dense, int count) {
-          std::fill_n(result.data() + dense, count, distance.side(row) * reach);
-        });
+    const detail::TileRows rows = lattice.rows(lattice.tiles[t]);
+    const detail::RowMask computed = distance.rows(t);
+    detail::for_rows(rows, computed, [&](std::int64_t row, std::int64_t dense, int /*bit*/) {
+      std::copy_n(distance.field().data() + row, rows.count, result.data() + dense);
+    });
+    detail::for_rows(rows, ~computed, [&](std::int64_t row, std::int64_t dense, int /*bit*/) {
+      std::fill_n(result.data() + dense, rows.count, distance.side(row) * reach);
+    });
   });
   return result;
 }

@@ -4,17 +4,9 @@
 
 #include <Eigen/Core>
 
+#include "row_reach.hpp"
+
 namespace shape3d::levelset::detail {
-
-/// A row of nodes of a padded field and the four rows beside it.
-struct RowView {
-  const float* center;
-  const float *y_minus, *y_plus, *z_minus, *z_plus;
-};
-
-inline RowView row_view(const float* center, std::int64_t row, std::int64_t slice) {
-  return {center, center - row, center + row, center - slice, center + slice};
-}
 
 /// What the distance loops need of a grid.
 struct Spacings {
@@ -42,7 +34,13 @@ enum class Far {
   kept  ///< What they have, cut at ±limit: a start for relax_distance() that is nearly right.
 };
 
-/// Signed distance of the nodes beside the zero set, 0 at zeros.
+/// The nodes of a tile beside a zero set.
+struct Beside {
+  int nodes = 0;
+  HalfRows rows;
+};
+
+/// Signed distance of the nodes beside the zero set, 0 at zeros, in the rows of a mask.
 ///
 /// A node is beside it when one of its six neighbours has the other sign or is zero. Its distance
 /// is |v| over the length of the one-sided slopes (|v| − n)/h towards the lower neighbour n of each
@@ -50,14 +48,14 @@ enum class Far {
 /// interpolation puts them, also where a crossing is more than one spacing away. Where both sides
 /// of an axis are crossed the object is one node thin and has no such plane: there it is the
 /// distance to the nearest crossing, which leaves the crossings where they are.
-/// @return  The number of nodes beside the zero set.
-int distance_beside(const RowView& field, LevelOf level, int count, const Spacings& spacings,
-                    float limit, Far far, float* out);
+/// @param field  Padded, as `out`.
+Beside distance_beside(const TileRows& rows, RowMask mask, const float* field, LevelOf level,
+                       const Spacings& spacings, float limit, Far far, float* out);
 
 /// One step of Jacobi's kind of the eikonal equation |∇d| = 1 (Rouy and Tourin's upwind scheme) at
 /// the nodes that are not beside the zero set; those keep their value. After n steps the nodes that
 /// are n away from them are right.
-void relax_distance(const RowView& distance, int count, const Spacings& spacings, float limit,
-                    float* out);
+void relax_distance(const TileRows& rows, RowMask mask, const float* distance,
+                    const Spacings& spacings, float limit, float* out);
 
 }  // namespace shape3d::levelset::detail

@@ -113,14 +113,16 @@ Evolution evolve(const Grid& grid, const Field& psi, const Field& advance, const
   const Field& k = factor.size() > 0 ? factor : ones;
   const double max_factor = options.curvature > 0.0 ? static_cast<double>(k.maxCoeff()) : 0.0;
 
-  detail::NarrowBand band(lattice, psi, advance, k, limit, threads);
-  detail::Step step = make_step(grid, options, limit);
-  Forecast forecast(options.max_iterations);
-  FrontStatistics statistics;
   // Redistancing moves a curved front by a share of h²/r. So it is done by the way that the front
   // may have gone, not by the number of steps, which curvature makes short; a curvature of half a
   // spacing is as much as counts.
   const double reach = options.redistance_interval * options.cfl / std::sqrt(square);
+  // Curvature looks at more nodes, and over more steps.
+  const double margin = options.curvature > 0.0 ? 1.5 : 1.0;
+  detail::NarrowBand band(lattice, psi, advance, k, limit, margin * reach, threads);
+  detail::Step step = make_step(grid, options, limit);
+  Forecast forecast(options.max_iterations);
+  FrontStatistics statistics;
   double since_redistance = 0.0, travelled = 0.0;
   for (int iteration = 1;; ++iteration) {
     const double rate =

@@ -89,8 +89,10 @@ Field redistance(const Grid& grid, const Field& psi, double limit, int requested
   Field from = detail::pad(lattice, psi, threads), to(from.size());
   const auto reach = static_cast<float>(limit);
   detail::parallel_for(lattice.tiles.size(), threads, [&](std::int64_t t) {
-    detail::tile_distance_beside(lattice, lattice.tiles[t], detail::kAllRows, {}, reach,
-                                 detail::Far::cut, from.data(), to.data());
+    const detail::Tile tile = lattice.tiles[t];
+    detail::distance_beside(lattice.rows(tile), detail::kAllRows, from.data(), {}, lattice.spacings,
+                            reach, detail::Far::cut, to.data());
+    detail::set_ghosts(lattice, tile, to.data());
   });
   // Distance spreads by one node a pass, along the diagonal of a cell by one in three.
   const int passes =
@@ -99,8 +101,10 @@ Field redistance(const Grid& grid, const Field& psi, double limit, int requested
   for (int pass = 0; pass < passes; ++pass) {
     std::swap(from, to);
     detail::parallel_for(lattice.tiles.size(), threads, [&](std::int64_t t) {
-      detail::tile_relax(lattice, lattice.tiles[t], detail::kAllRows, false, reach, from.data(),
-                         to.data());
+      const detail::Tile tile = lattice.tiles[t];
+      detail::relax_distance(lattice.rows(tile), detail::kAllRows, from.data(), lattice.spacings,
+                             reach, to.data());
+      detail::set_ghosts(lattice, tile, to.data());
     });
   }
   from.resize(0);

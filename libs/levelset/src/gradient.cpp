@@ -76,7 +76,7 @@ Field gradient_magnitude(const ImageView& image, double sigma, int requested_thr
     const double h = image.spacing[axis];
     kernels[axis] = make_kernel(sigma > 0.0 ? std::max(sigma / h, 0.6) : 1.0, h);
   }
-  const auto& [kx, ky, kz] = kernels;
+  const Kernel &kx = kernels[0], &ky = kernels[1], &kz = kernels[2];
   const std::int64_t nx = image.dims[0], ny = image.dims[1], nz = image.dims[2];
   Field result(nx * ny * nz);
 
@@ -121,7 +121,7 @@ Field smooth(const ImageView& image, double sigma, int requested_threads) {
     const double in_spacings = sigma / image.spacing[axis];
     if (in_spacings >= 0.3) kernels[axis] = make_kernel(in_spacings, image.spacing[axis]);
   }
-  const auto& [kx, ky, kz] = kernels;
+  const Kernel &kx = kernels[0], &ky = kernels[1], &kz = kernels[2];
   const std::int64_t nx = image.dims[0], ny = image.dims[1], nz = image.dims[2];
   Field result(nx * ny * nz);
   detail::parallel_for(nz, threads, [&](std::int64_t k) {

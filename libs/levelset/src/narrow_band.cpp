@@ -2,210 +2,213 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "parallel.hpp"
+#include "row_reach.hpp"
 
 namespace shape3d::levelset::detail {
 namespace {
 
-/// Distances are made right this many nodes away from those beside the front, which moves by two
-/// nodes between two redistancings, in which it also carries what the front left behind.
-constexpr int kSpreadingPasses = 3;
-/// Redistancings over which the net displacement is looked at, too.
+/// Redistancings over which the mean place of the front is looked at, too.
 constexpr int kWindow = 8;
 
 }  // namespace
 
 NarrowBand::NarrowBand(const Lattice& lattice, const Field& psi, const Field& advance,
-                       const Field& factor, float limit, int threads)
+                       const Field& factor, float limit, double reach, int threads)
     : lattice_(lattice),
       speed_(advance),
       factor_(factor),
       current_(pad(lattice, psi, threads)),
       next_(lattice.padded.size()),
       limit_(limit),
-      slope_(0.5F / static_cast<float>(lattice.grid.spacing.maxCoeff())),
       threads_(threads) {
+  const Eigen::Vector3d& h = lattice.grid.spacing;
+  // A ramp as wide as the largest spacing has the same sum wherever a plane lies between nodes; in
+  // nodes it must not be wider than the rows that are computed.
+  width_ =
+      static_cast<float>(std::min(std::max(h.minCoeff(), 0.5 * h.maxCoeff()), 3.0 * h.minCoeff()));
+  for (int axis = 0; axis < 3; ++axis) {
+    steps_[axis] = std::clamp(static_cast<int>(std::lround(std::sqrt(3.0) * reach / h[axis])), 1,
+                              kMostPasses - 1);
+  }
   const auto count = static_cast<std::size_t>(lattice.tiles.size());
-  is_active_.assign(count, 1);
-  active_ = flagged(is_active_);
-  max_speed_.assign(count, 0.0F);
-  near_.assign(count, kAllRows);
-  next_near_ = near_;
-  calm_.assign(count, 0);
-  inside_.assign(count, 0);
-  crossed_.assign(count, 0);
-  beside_.assign(count, 0);
-  volume_.assign(count, 0.0);
+  Reaches all;
+  all.fill(kAllRows);
+  rows_.assign(count, all);
+  tallies_.resize(count);
+  changes_.resize(count);
+  tile_speed_.assign(count, 0.0F);
   parallel_for(lattice.tiles.size(), threads, [&](std::int64_t t) {
     float greatest = 0.0F;
-    lattice.for_rows(lattice.tiles[t], [&](std::int64_t /*row*/, std::int64_t at, int n) {
-      for (int i = 0; i < n; ++i) greatest = std::max(greatest, std::abs(advance[at + i]));
+    const TileRows rows = lattice.rows(lattice.tiles[t]);
+    for_rows(rows, kAllRows, [&](std::int64_t /*padded*/, std::int64_t at, int) {
+      for (int i = 0; i < rows.count; ++i) greatest = std::max(greatest, std::abs(advance[at + i]));
     });
-    max_speed_[t] = greatest;
+    tile_speed_[t] = greatest;
   });
-  volume_before_ = anchor_ = volume_;
-  redistance(-1.0);
+  is_active_.assign(count, 1);
+  active_ = flagged(is_active_);
+  spread(Far::cut);
+  for (Tally& tally : tallies_) tally.volume_before = tally.mean = tally.now.volume;
+  std::vector<char> beside(count, 0);
+  for (std::size_t t = 0; t < count; ++t) beside[t] = tallies_[t].beside.nodes > 0 ? 1 : 0;
+  activate(lattice_.tiles.dilate(beside));
 }
 
-float NarrowBand::max_speed() const {
-  float greatest = 0.0F;
-  for (const std::int64_t t : active_) greatest = std::max(greatest, max_speed_[t]);
-  return greatest;
-}
-
-/// Calls body(tile number, tile, rows to compute) for the active tiles and swaps the buffers. The
-/// bodies write next_, and next_near_ of their tile.
+/// Calls body(tile number, tile, rows) for the active tiles and swaps the buffers.
 template <class Body>
 void NarrowBand::for_active(const Body& body) {
   parallel_for(active_tiles(), threads_, [&](std::int64_t n) {
     const std::int64_t t = active_[n];
-    body(t, lattice_.tiles[t], lattice_.tiles.with_neighbours(near_, t));
+    const Tile tile = lattice_.tiles[t];
+    body(t, lattice_.rows(tile));
+    set_ghosts(lattice_, tile, next_.data());
   });
-  for (const std::int64_t t : active_) near_[t] = next_near_[t];
   std::swap(current_, next_);
 }
 
-namespace {
-
-/// Rows of a tile with a node nearer than the limit, among those of a mask.
-RowMask near_rows(const Lattice& lattice, const Tile& tile, RowMask mask, float limit,
-                  const float* psi) {
-  RowMask near = 0;
-  for (std::int64_t k = tile.z0; k < tile.z1; ++k) {
-    for (std::int64_t j = tile.y0; j < tile.y1; ++j) {
-      const RowMask bit = RowMask{1} << ((j - tile.y0) + kTileY * (k - tile.z0));
-      if ((mask & bit) != 0 && count_near(psi + lattice.padded.index(tile.x0, j, k),
-                                          static_cast<int>(tile.x1 - tile.x0), limit) > 0)
-        near |= bit;
-    }
-  }
-  return near;
-}
-
-/// A row that is not computed has all its nodes at the limit, on one side.
-void add_far_row(const float* psi, int count, Change& change) {
-  if (psi[0] > 0.0F) return;
-  change.inside += count;
-  change.lanes[0] += static_cast<float>(count);
-}
-
-}  // namespace
-
 std::int64_t NarrowBand::advance(const Step& step) {
-  const std::int64_t row = lattice_.padded.row, slice = lattice_.padded.slice;
   const Field& factor = factor_.size() > 0 ? factor_ : speed_;  // not read without curvature
-  for_active([&](std::int64_t t, const Tile& tile, RowMask mask) {
-    Change change;
-    lattice_.for_rows(
-        tile, mask,
-        [&](std::int64_t at, std::int64_t dense, int count) {
-          const float* psi = current_.data() + at;
-          float* out = next_.data() + at;
-          advance_row(psi, row, slice, speed_.data() + dense, factor.data() + dense, count,
-                      lattice_.spacings, step, out);
-          add_change(psi, out, count, slope_, change);
-        },
-        [&](std::int64_t at, std::int64_t /*dense*/, int count) {
-          std::copy_n(current_.data() + at, count, next_.data() + at);
-          add_far_row(current_.data() + at, count, change);
-        });
-    set_ghosts(lattice_, tile, next_.data());
-    next_near_[t] = near_rows(lattice_, tile, mask, limit_, next_.data());
-    inside_[t] = change.inside;
-    crossed_[t] = change.crossed;
+  for_active([&](std::int64_t t, const TileRows& rows) {
+    changes_[t] = advance_rows(rows, rows_[t].back(), current_.data(), speed_.data(), factor.data(),
+                               lattice_.spacings, step, next_.data());
   });
   std::int64_t crossed = 0;
-  for (const std::int64_t t : active_) crossed += crossed_[t];
+  for (const std::int64_t t : active_) {
+    crossed += changes_[t].crossed;
+    inside_ += changes_[t].inside;
+    tallies_[t].now.inside += changes_[t].inside;
+  }
   return crossed;
 }
 
-void NarrowBand::spread() {
-  for_active([&](std::int64_t t, const Tile& tile, RowMask mask) {
-    beside_[t] = tile_distance_beside(lattice_, tile, mask, {}, limit_, Far::kept, current_.data(),
-                                      next_.data());
-    next_near_[t] = near_rows(lattice_, tile, mask, limit_, next_.data());
+/// The rows of tile t by their distance from rows with a node beside the front. Along x, four nodes
+/// are as near as can be told.
+void NarrowBand::find_rows(std::int64_t t) {
+  const auto halves = [&](std::int64_t tile) { return tallies_[tile].beside.rows; };
+  RowReach reach(lattice_.tiles, t, [&](std::int64_t tile) {
+    return reach_along_x(lattice_.tiles, tile, steps_[0], halves);
   });
-  for (int pass = 0; pass < kSpreadingPasses; ++pass) {
-    const bool last = pass + 1 == kSpreadingPasses;
-    for_active([&](std::int64_t t, const Tile& tile, RowMask mask) {
-      tile_relax(lattice_, tile, mask, true, limit_, current_.data(), next_.data());
-      next_near_[t] = near_rows(lattice_, tile, mask, limit_, next_.data());
-      if (!last) return;
-      Change change;
-      lattice_.for_rows(
-          tile, mask,
-          [&](std::int64_t at, std::int64_t /*dense*/, int nodes) {
-            add_change(next_.data() + at, next_.data() + at, nodes, slope_, change);
-          },
-          [&](std::int64_t at, std::int64_t /*dense*/, int nodes) {
-            add_far_row(next_.data() + at, nodes, change);
-          });
-      inside_[t] = change.inside;
-      volume_[t] = std::accumulate(change.lanes, change.lanes + 16, 0.0);
+  const int passes = std::max(steps_[1], steps_[2]);
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    if (pass < passes) reach.grow(pass < steps_[1], pass < steps_[2]);
+    rows_[t][pass] = reach.mask();
+  }
+}
+
+/// ψ becomes a distance: beside the front, and outwards from there by a node a pass, one less than
+/// the front may go.
+void NarrowBand::spread(Far far) {
+  for_active([&](std::int64_t t, const TileRows& rows) {
+    tallies_[t].beside = distance_beside(rows, rows_[t].back(), current_.data(), {},
+                                         lattice_.spacings, limit_, far, next_.data());
+  });
+  const int passes = std::max({steps_[0], steps_[1], steps_[2], 2}) - 1;
+  for (int pass = 0; pass < passes; ++pass) {
+    for_active([&](std::int64_t t, const TileRows& rows) {
+      if (pass == 0) {
+        const RowMask before = rows_[t].back();
+        find_rows(t);
+        copy_rows(rows, before & ~rows_[t][0], current_.data(), next_.data());
+      }
+      relax_distance(rows, rows_[t][pass], current_.data(), lattice_.spacings, limit_,
+                     next_.data());
+      if (pass + 1 < passes) return;
+      // Rows that are not computed lie on one side of the front.
+      const RowMask computed = rows_[t].back();
+      Measures measures = measure_rows(rows, computed, next_.data(), width_);
+      for_rows(rows, ~computed, [&](std::int64_t at, std::int64_t /*dense*/, int) {
+        if (next_[at] > 0.0F) return;
+        measures.inside += rows.count;
+        measures.volume += rows.count;
+      });
+      tallies_[t].now = measures;
     });
   }
+  inside_ = 0;
+  for (const Tally& tally : tallies_) inside_ += tally.now.inside;
+}
+
+/// Whether the front still moves in a tile.
+///
+/// The displacement is the volume swept over the area. In nodes: a plane of area A has A·2w/V nodes
+/// nearer than w, V the volume of a cell, whatever its direction; half of those beside it, at
+/// least, also where the border of the volume hides some.
+bool NarrowBand::is_moving(Tally& tally, double rest, bool window_end, Motion& motion) const {
+  const double per_node =
+      2.0 * static_cast<double>(width_) / std::max({tally.now.near, tally.beside.nodes / 2, 1});
+  const double displacement = std::abs(tally.now.volume - tally.volume_before) * per_node;
+  motion.greatest = std::max(motion.greatest, displacement);
+  // To and fro about the same place, as where an object is one node thin, is rest, too: a tile
+  // whose mean over a window is that of the window before is calm until it is half a node from
+  // there, and each time twice as far.
+  if (tally.calm) {
+    const double away = std::abs(tally.now.volume - tally.mean) * per_node;
+    tally.calm = away <= std::ldexp(0.25 * lattice_.grid.spacing.minCoeff(), tally.calmed);
+  }
+  tally.sum += tally.now.volume;
+  if (window_end) {
+    const double mean = tally.sum / kWindow;
+    tally.sum = 0.0;
+    if (!tally.calm) {
+      tally.calm = std::abs(mean - tally.mean) * per_node <= window_rest_;
+      if (tally.calm) tally.calmed = std::min(tally.calmed + 1, 8);
+      tally.mean = mean;
+    }
+  }
+  return displacement > rest && !tally.calm;
 }
 
 NarrowBand::Motion NarrowBand::redistance(double rest) {
-  spread();
+  spread(Far::kept);
+  window_rest_ += rest;
   const bool window_end = ++redistancings_ % kWindow == 0;
-  // The volume swept in a tile, over the area of the front in it. A front of any direction crosses
-  // 3/2 lattice edges for each face of a node on average, and each of these has a node on both
-  // sides: one node beside the front stands for a third of a face.
-  const double length = lattice_.grid.mean_spacing();
   Motion motion;
-  double swept = 0.0;
+  double swept = 0.0, near = 0.0;
   std::vector<char> moving(is_active_.size(), 0);
   for (std::size_t t = 0; t < moving.size(); ++t) {
-    motion.nodes += beside_[t];
-    if (is_active_[t] == 0) continue;
-    const double change = std::abs(volume_[t] - volume_before_[t]) * 3.0 * length;
-    volume_before_[t] = volume_[t];
-    swept += change;
-    if (beside_[t] == 0) continue;
-    const double displacement = change / beside_[t];
-    motion.greatest = std::max(motion.greatest, displacement);
-    // To and fro about the same place, as where an object is one node thin, is rest: a tile whose
-    // net displacement over a window was small is calm until it is a tenth of a node from there.
-    const double net = std::abs(volume_[t] - anchor_[t]) * 3.0 * length / beside_[t];
-    if (net > 0.1 * length) calm_[t] = 0;
-    if (window_end && net <= std::max(rest, 0.02 * length)) calm_[t] = 1;
-    moving[t] = rest >= 0.0 && calm_[t] != 0 ? 0 : displacement > rest ? 1 : 0;
+    Tally& tally = tallies_[t];
+    motion.nodes += tally.beside.nodes;
+    near += tally.now.near;
+    if (is_active_[t] == 0) {
+      tally.sum = window_end ? 0.0 : tally.sum + tally.now.volume;
+      continue;
+    }
+    moving[t] = is_moving(tally, rest, window_end, motion) ? 1 : 0;
+    swept += std::abs(tally.now.volume - tally.volume_before);
+    tally.volume_before = tally.now.volume;
   }
-  motion.mean = motion.nodes > 0 ? swept / static_cast<double>(motion.nodes) : 0.0;
-  if (window_end) {
-    for (std::size_t t = 0; t < calm_.size(); ++t)
-      if (calm_[t] == 0) anchor_[t] = volume_[t];
-  }
-  std::vector<char> now = lattice_.tiles.dilate(moving);
-  settle(is_active_, now);
-  is_active_ = std::move(now);
-  active_ = flagged(is_active_);
+  motion.mean = near > 0.0 ? swept * 2.0 * static_cast<double>(width_) / near : 0.0;
+  if (window_end) window_rest_ = 0.0;
+  activate(lattice_.tiles.dilate(moving));
   return motion;
 }
 
-/// Tiles that are no longer active get the same values in both buffers. Those that the front has
-/// left altogether hold nothing but ±limit.
-void NarrowBand::settle(const std::vector<char>& was, const std::vector<char>& now) {
-  std::vector<std::int64_t> leaving;
-  for (std::size_t t = 0; t < was.size(); ++t)
-    if (was[t] != 0 && now[t] == 0) leaving.push_back(static_cast<std::int64_t>(t));
-  parallel_for(static_cast<std::int64_t>(leaving.size()), threads_, [&](std::int64_t n) {
-    const Tile tile = lattice_.tiles[leaving[n]];
-    lattice_.for_rows(tile, [&](std::int64_t at, std::int64_t /*dense*/, int count) {
-      std::copy_n(current_.data() + at, count, next_.data() + at);
-    });
+/// Tiles that are no longer active get the same values in both buffers; those that become so find
+/// their rows.
+void NarrowBand::activate(std::vector<char> now) {
+  parallel_for(lattice_.tiles.size(), threads_, [&](std::int64_t t) {
+    if (is_active_[t] == now[t]) return;
+    if (now[t] != 0) return find_rows(t);
+    const Tile tile = lattice_.tiles[t];
+    copy_rows(lattice_.rows(tile), rows_[t].back(), current_.data(), next_.data());
     set_ghosts(lattice_, tile, next_.data());
   });
-}
-
-std::int64_t NarrowBand::inside() const {
-  return std::accumulate(inside_.begin(), inside_.end(), std::int64_t{0});
+  is_active_ = std::move(now);
+  active_ = flagged(is_active_);
+  max_speed_ = 0.0F;
+  for (const std::int64_t t : active_) max_speed_ = std::max(max_speed_, tile_speed_[t]);
 }
 
 Field NarrowBand::take() {
+  parallel_for(lattice_.tiles.size(), threads_, [&](std::int64_t t) {
+    find_rows(t);
+    const TileRows rows = lattice_.rows(lattice_.tiles[t]);
+    for_rows(rows, ~rows_[t].back(), [&](std::int64_t at, std::int64_t /*dense*/, int) {
+      std::fill_n(current_.data() + at, rows.count, current_[at] > 0.0F ? limit_ : -limit_);
+    });
+  });
   next_.resize(0);
   return unpad(lattice_, current_, threads_);
 }

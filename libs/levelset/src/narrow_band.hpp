@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -10,26 +11,28 @@ namespace shape3d::levelset::detail {
 
 /// ψ in two buffers and the tiles that are computed.
 ///
-/// A step reads one buffer and writes the other, tile by tile. Tiles that are not active hold the
-/// same values in both. In an active tile only the rows are computed that hold a node nearer than
-/// the band's limit, or lie beside one that does; the others are copied. A tile is active when the
-/// front is in it or in one that touches it, and has moved, in one of these, since the redistancing
-/// before the last.
+/// A step reads one buffer and writes the other, tile by tile. A tile is active when the front is
+/// in it or in one that touches it, and has moved there between the last two redistancings. In an
+/// active tile only the rows are computed that the front may reach before the next redistancing;
+/// all others hold the same values in both buffers.
 class NarrowBand {
  public:
   /// @param psi     Any function of the right signs. The first redistancing is done here.
   /// @param factor  May be empty: 1.
+  /// @param limit   |ψ| is cut at this, mm; at least the largest spacing.
+  /// @param reach   The front moves by no more than this between two redistancings, mm; up to six
+  ///                of the smallest spacings.
   NarrowBand(const Lattice& lattice, const Field& psi, const Field& advance, const Field& factor,
-             float limit, int threads);
+             float limit, double reach, int threads);
 
   /// Largest |advance| in the active tiles.
-  [[nodiscard]] float max_speed() const;
+  [[nodiscard]] float max_speed() const { return max_speed_; }
   /// One step in all active tiles. Returns the number of nodes that changed sides.
   std::int64_t advance(const Step& step);
 
   /// What redistance() found of the front.
   struct Motion {
-    double mean = 0.0;      ///< mm, over the nodes beside the front.
+    double mean = 0.0;      ///< mm, over the nodes near the front.
     double greatest = 0.0;  ///< mm, of the tile where it moved most.
     std::int64_t nodes = 0;
   };
@@ -40,28 +43,48 @@ class NarrowBand {
   [[nodiscard]] std::int64_t active_tiles() const {
     return static_cast<std::int64_t>(active_.size());
   }
-  [[nodiscard]] std::int64_t inside() const;
-  /// ψ without ghosts. The buffers are given up.
+  [[nodiscard]] std::int64_t inside() const { return inside_; }
+  /// ψ without ghosts, ±limit away from the front. The buffers are given up.
   [[nodiscard]] Field take();
 
  private:
+  static constexpr int kMostPasses = 8;
+  /// Rows of a tile within 1, 2, … steps of those with a node beside the front; the last are those
+  /// that are computed.
+  using Reaches = std::array<RowMask, kMostPasses>;
+  struct Tally {
+    Beside beside;
+    Measures now;
+    double volume_before = 0.0;  // one redistancing ago
+    double sum = 0.0;            // of the volumes of this window
+    double mean = 0.0;           // volume of the last window
+    int calmed = 0;              // how many times
+    bool calm = false;
+  };
+
   template <class Body>
   void for_active(const Body& body);
-  void spread();
-  void settle(const std::vector<char>& was, const std::vector<char>& now);
+  void find_rows(std::int64_t t);
+  void spread(Far far);
+  void activate(std::vector<char> now);
+  [[nodiscard]] bool is_moving(Tally& tally, double rest, bool window_end, Motion& motion) const;
 
   const Lattice& lattice_;
   const Field &speed_, &factor_;
   Field current_, next_;
-  float limit_, slope_;
+  float limit_, width_;  // half the width of the ramp that volumes are measured with
+  int steps_[3];         // nodes along each axis that the front may go, and one
   int threads_, redistancings_ = 0;
+  double window_rest_ = 0.0;  // mm that a tile may move in a window and be at rest
+  float max_speed_ = 0.0F;
+  std::int64_t inside_ = 0;
   std::vector<std::int64_t> active_;
-  std::vector<char> is_active_, calm_;
+  std::vector<char> is_active_;
   // By tile:
-  std::vector<RowMask> near_, next_near_;  // rows with a node nearer than the limit
-  std::vector<float> max_speed_;
-  std::vector<int> inside_, crossed_, beside_;
-  std::vector<double> volume_, volume_before_, anchor_;
+  std::vector<Reaches> rows_;
+  std::vector<float> tile_speed_;
+  std::vector<Tally> tallies_;
+  std::vector<Change> changes_;
 };
 
 }  // namespace shape3d::levelset::detail

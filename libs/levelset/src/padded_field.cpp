@@ -1,6 +1,7 @@
 #include "padded_field.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "parallel.hpp"
 
@@ -10,8 +11,9 @@ Field pad(const Lattice& lattice, const Field& dense, int threads) {
   Field field(lattice.padded.size());
   parallel_for(lattice.tiles.size(), threads, [&](std::int64_t t) {
     const Tile tile = lattice.tiles[t];
-    lattice.for_rows(tile, [&](std::int64_t to, std::int64_t from, int count) {
-      std::copy_n(dense.data() + from, count, field.data() + to);
+    const TileRows rows = lattice.rows(tile);
+    for_rows(rows, kAllRows, [&](std::int64_t to, std::int64_t from, int) {
+      std::copy_n(dense.data() + from, rows.count, field.data() + to);
     });
     set_ghosts(lattice, tile, field.data());
   });
@@ -21,8 +23,9 @@ Field pad(const Lattice& lattice, const Field& dense, int threads) {
 Field unpad(const Lattice& lattice, const Field& padded, int threads) {
   Field field(lattice.grid.size());
   parallel_for(lattice.tiles.size(), threads, [&](std::int64_t t) {
-    lattice.for_rows(lattice.tiles[t], [&](std::int64_t from, std::int64_t to, int count) {
-      std::copy_n(padded.data() + from, count, field.data() + to);
+    const TileRows rows = lattice.rows(lattice.tiles[t]);
+    for_rows(rows, kAllRows, [&](std::int64_t from, std::int64_t to, int) {
+      std::copy_n(padded.data() + from, rows.count, field.data() + to);
     });
   });
   return field;
@@ -36,7 +39,9 @@ void set_ghosts(const Lattice& lattice, const Tile& tile, float* field) {
   const bool low_z = tile.z0 == 0, high_z = tile.z1 == p.nz;
   if (!(low_x || high_x || low_y || high_y || low_z || high_z)) return;
   if (low_x || high_x) {
-    lattice.for_rows(tile, [&](std::int64_t row, std::int64_t /*dense*/, int count) {
+    const TileRows rows = lattice.rows(tile);
+    const int count = rows.count;
+    for_rows(rows, kAllRows, [&](std::int64_t row, std::int64_t /*dense*/, int) {
       if (low_x) field[row - 1] = std::max(field[row], floor[0]);
       if (high_x) field[row + count] = std::max(field[row + count - 1], floor[0]);
     });
@@ -56,34 +61,14 @@ void set_ghosts(const Lattice& lattice, const Tile& tile, float* field) {
   }
 }
 
-int tile_distance_beside(const Lattice& lattice, const Tile& tile, RowMask mask, LevelOf level,
-                         float limit, Far far, const float* field, float* out) {
-  int found = 0;
-  lattice.for_rows(
-      tile, mask,
-      [&](std::int64_t row, std::int64_t /*dense*/, int count) {
-        found += distance_beside(row_view(field + row, lattice.padded.row, lattice.padded.slice),
-                                 level, count, lattice.spacings, limit, far, out + row);
-      },
-      [&](std::int64_t row, std::int64_t /*dense*/, int count) {
-        if (far == Far::kept) std::copy_n(field + row, count, out + row);
-      });
-  set_ghosts(lattice, tile, out);
-  return found;
-}
-
-void tile_relax(const Lattice& lattice, const Tile& tile, RowMask mask, bool copy, float limit,
-                const float* distance, float* out) {
-  lattice.for_rows(
-      tile, mask,
-      [&](std::int64_t row, std::int64_t /*dense*/, int count) {
-        relax_distance(row_view(distance + row, lattice.padded.row, lattice.padded.slice), count,
-                       lattice.spacings, limit, out + row);
-      },
-      [&](std::int64_t row, std::int64_t /*dense*/, int count) {
-        if (copy) std::copy_n(distance + row, count, out + row);
-      });
-  set_ghosts(lattice, tile, out);
+void copy_rows(const TileRows& rows, RowMask mask, const float* from, float* to) {
+  for_rows(rows, mask, [&](std::int64_t at, std::int64_t /*dense*/, int) {
+    if (rows.count == kTileX) {
+      std::memcpy(to + at, from + at, kTileX * sizeof(float));
+    } else {
+      std::copy_n(from + at, rows.count, to + at);
+    }
+  });
 }
 
 }  // namespace shape3d::levelset::detail

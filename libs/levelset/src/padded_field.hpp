@@ -21,25 +21,12 @@ struct Lattice {
 
   explicit Lattice(const Grid& g) : grid(g), padded(g), tiles(g), spacings(g.spacing) {}
 
-  /// Calls visit(offset in a padded field, offset in a dense one, length) for each row of a tile.
-  template <class Visit>
-  void for_rows(const Tile& tile, const Visit& visit) const {
-    for_rows(tile, kAllRows, visit, [](std::int64_t, std::int64_t, int) {});
-  }
-  /// The same for the rows of a mask; other(…) for the others.
-  template <class Visit, class Other>
-  void for_rows(const Tile& tile, RowMask mask, const Visit& visit, const Other& other) const {
-    const int count = static_cast<int>(tile.x1 - tile.x0);
-    for (std::int64_t k = tile.z0; k < tile.z1; ++k) {
-      for (std::int64_t j = tile.y0; j < tile.y1; ++j) {
-        const std::int64_t row = padded.index(tile.x0, j, k), dense = grid.index(tile.x0, j, k);
-        if ((mask >> ((j - tile.y0) + kTileY * (k - tile.z0)) & 1) != 0) {
-          visit(row, dense, count);
-        } else {
-          other(row, dense, count);
-        }
-      }
-    }
+  [[nodiscard]] TileRows rows(const Tile& tile) const {
+    RowMask slice_mask = (RowMask{1} << (tile.y1 - tile.y0)) - 1, all = 0;
+    for (std::int64_t k = 0; k < tile.z1 - tile.z0; ++k) all |= slice_mask << (kTileY * k);
+    return {padded.index(tile.x0, tile.y0, tile.z0), padded.row,   padded.slice,
+            grid.index(tile.x0, tile.y0, tile.z0),   grid.dims[0], grid.dims[0] * grid.dims[1],
+            static_cast<int>(tile.x1 - tile.x0),     all};
   }
 };
 
@@ -50,12 +37,7 @@ Field unpad(const Lattice& lattice, const Field& padded, int threads);
 /// Sets the ghosts beside a tile at the border.
 void set_ghosts(const Lattice& lattice, const Tile& tile, float* field);
 
-/// distance_beside() for the rows of a mask, ghosts set; returns the number of nodes beside the
-/// zero set. Other rows are copied with Far::kept, and left alone with Far::cut.
-int tile_distance_beside(const Lattice& lattice, const Tile& tile, RowMask mask, LevelOf level,
-                         float limit, Far far, const float* field, float* out);
-/// relax_distance() for the rows of a mask, ghosts set. Other rows are copied when `copy` says so.
-void tile_relax(const Lattice& lattice, const Tile& tile, RowMask mask, bool copy, float limit,
-                const float* distance, float* out);
+/// Copies the rows of a mask of a padded field.
+void copy_rows(const TileRows& rows, RowMask mask, const float* from, float* to);
 
 }  // namespace shape3d::levelset::detail

@@ -28,7 +28,8 @@ struct PaddedLattice {
   }
 };
 
-constexpr std::int64_t kTileX = 32, kTileY = 8, kTileZ = 8;
+/// Eight floats are what a vector register of AVX2 holds: a row of a tile is one.
+constexpr std::int64_t kTileX = 8, kTileY = 8, kTileZ = 8;
 
 /// Nodes lower ≤ (i, j, k) < upper.
 struct Tile {
@@ -39,6 +40,25 @@ struct Tile {
 using RowMask = std::uint64_t;
 static_assert(kTileY == 8 && kTileZ == 8);
 constexpr RowMask kAllRows = ~RowMask{0};
+
+/// Where the rows of a tile lie: row (j, k) starts at padded + j·row + k·slice of a padded field
+/// and at dense + j·dense_row + k·dense_slice of a dense one.
+struct TileRows {
+  std::int64_t padded, row, slice;
+  std::int64_t dense, dense_row, dense_slice;
+  int count;    ///< Nodes of a row, up to 8.
+  RowMask all;  ///< The rows there are.
+};
+
+/// Calls visit(offset in a padded field, offset in a dense one, bit) for the rows of a mask.
+template <class Visit>
+inline void for_rows(const TileRows& rows, RowMask mask, const Visit& visit) {
+  for (RowMask rest = mask & rows.all; rest != 0; rest &= rest - 1) {
+    const int bit = __builtin_ctzll(rest), j = bit & 7, k = bit >> 3;
+    visit(rows.padded + j * rows.row + k * rows.slice,
+          rows.dense + j * rows.dense_row + k * rows.dense_slice, bit);
+  }
+}
 
 /// The tiling of a lattice, tiles numbered x fastest.
 class Tiles {
@@ -71,21 +91,13 @@ class Tiles {
     return result;
   }
 
-  /// The rows of tile t that are in `masks` or beside one that is, along any axis.
-  [[nodiscard]] RowMask with_neighbours(const std::vector<RowMask>& masks, std::int64_t t) const {
-    constexpr RowMask kFirst = 0x0101010101010101u, kNotLast = 0x7f7f7f7f7f7f7f7fu;
-    const std::int64_t x = t % count_[0], y = t / count_[0] % count_[1],
-                       z = t / (count_[0] * count_[1]);
-    const auto of = [&](std::int64_t place, std::int64_t count, std::int64_t tile) {
-      return place >= 0 && place < count ? masks[static_cast<std::size_t>(tile)] : RowMask{0};
-    };
-    const std::int64_t row = count_[0], slice = count_[0] * count_[1];
-    const RowMask own = masks[static_cast<std::size_t>(t)];
-    return own | of(x - 1, count_[0], t - 1) | of(x + 1, count_[0], t + 1) |
-           ((own & kNotLast) << 1) | ((own >> 1) & kNotLast) | own << 8 | own >> 8 |
-           ((of(y - 1, count_[1], t - row) >> 7) & kFirst) |
-           ((of(y + 1, count_[1], t + row) & kFirst) << 7) | of(z - 1, count_[2], t - slice) >> 56 |
-           of(z + 1, count_[2], t + slice) << 56;
+  /// The tile at (x, y, z) steps from tile t, or −1 beyond the border.
+  [[nodiscard]] std::int64_t beside(std::int64_t t, int x, int y, int z) const {
+    const std::int64_t i = t % count_[0] + x, j = t / count_[0] % count_[1] + y,
+                       k = t / (count_[0] * count_[1]) + z;
+    const bool within =
+        i >= 0 && i < count_[0] && j >= 0 && j < count_[1] && k >= 0 && k < count_[2];
+    return within ? i + count_[0] * (j + count_[1] * k) : -1;
   }
 
  private:

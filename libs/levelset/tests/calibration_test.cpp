@@ -266,6 +266,7 @@ TEST_CASE("settings of a calibration out of range are refused", "[levelset][cont
   refused([](CalibrationOptions& o) { o.coarse_samples = 4; },
           "coarse_samples is 4; expected an odd");
   refused([](CalibrationOptions& o) { o.refinements = -1; }, "refinements is -1");
+  refused([](CalibrationOptions& o) { o.max_samples = -1; }, "max_samples is -1");
   refused([](CalibrationOptions& o) { o.boundary_width = -1; }, "boundary_width is -1");
   refused([](CalibrationOptions& o) { o.threads = -1; }, "threads is -1");
   CHECK_THROWS_WITH(calibrate(view, Field::Zero(26), model(), 1.0),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "shape3d/levelset/export.hpp"
@@ -28,7 +29,10 @@ struct CalibrationOptions {
       0.9;  ///< The scope is no wider, for there Λ ends at the class means; in (0, 1].
   int coarse_samples = 7;  ///< Values of λ in the first pass, odd, at least 3.
   int refinements = 3;     ///< Passes that halve the step around the best; at least 0.
-  int threads = 0;         ///< 0: all processors. The result does not depend on it.
+  /// S is summed over about this many samples at most, in bars of 32 × 32 rows along x spread
+  /// evenly over the volume; 0: over all.
+  std::int64_t max_samples = 2'000'000;
+  int threads = 0;  ///< 0: all processors. The result does not depend on it.
   ProgressFunction progress;
 };
 

@@ -28,8 +28,8 @@ enum class Border {
 struct EvolveOptions {
   int max_iterations = 1000;  ///< At least 1.
   /// A tile is at rest when the mean displacement of the front in it, per unit of time, is at most
-  /// this (1: the speed of a front with F = 1), or when it has only gone to and fro over the last 8
-  /// redistancings. All tiles at rest: converged. At least 0.
+  /// this (1: the speed of a front with F = 1) since the last redistancing, or over the last 8 of
+  /// them, to and fro counting as nothing. All tiles at rest: converged. At least 0.
   double tolerance = 0.01;
   /// Δt · (max |F| · √Σ h⁻² + 2 ε max k Σ h⁻²) of a step; in (0, 1).
   double cfl = 0.9;
@@ -54,17 +54,18 @@ struct FrontStatistics {
   std::int64_t crossed = 0;       ///< Nodes that changed sides in this iteration.
   std::int64_t inside = 0;        ///< Nodes with ψ ≤ 0.
   std::int64_t front_nodes = 0;   ///< Nodes beside the front at the last reinitialisation.
-  std::int64_t active_tiles = 0;  ///< Tiles of 32 × 8 × 8 nodes that were computed.
+  std::int64_t active_tiles = 0;  ///< Tiles of 8 × 8 × 8 nodes that were computed.
 };
 
 /// Outcome of evolve().
 struct Evolution {
-  /// ψ, mm: < 0 inside, 0 on the front, > 0 outside; a distance near the front, ±band elsewhere.
+  /// ψ, mm: < 0 inside, 0 on the front, > 0 outside; a distance within two nodes of the front,
+  /// cut at ±band, and ±band away from it.
   /// A zero is a node that the front passes through exactly: none is moved to one side.
   Field psi;
   Status status = Status::iteration_limit;
   std::vector<FrontStatistics> iterations;
-  double band = 0.0;     ///< mm: |ψ| is a distance up to here.
+  double band = 0.0;     ///< mm: |ψ| is no more.
   double seconds = 0.0;  ///< Wall clock.
 };
 
