@@ -25,7 +25,8 @@ constexpr int kSearchFolds = 3;
 constexpr int kMostNestedSearches = 10;
 constexpr int kMostColumns = 100;
 
-// Options found by cross-validation on the rows that have a label.
+// Options found by cross-validation on the rows that have a label; the middle of the grid where
+// fewer than two classes have two members.
 SvmOptions searched_options(const FeaturesView& X, const Labels& labels, bool are_components,
                             bool probabilities, std::uint64_t seed, int threads) {
   SvmOptions options;
@@ -40,12 +41,20 @@ SvmOptions searched_options(const FeaturesView& X, const Labels& labels, bool ar
   if (variance > 0.0) {
     for (double& gamma : grid.gamma) gamma /= variance;
   }
+  options.C = grid.C.back();
+  options.gamma = grid.gamma[1];
+  options.probabilities = probabilities;
+  std::map<int, int> members;
+  for (const int label : labels) {
+    if (label != kUnlabelled) ++members[label];
+  }
+  const auto is_searchable = [](const auto& one) { return one.second > 1; };
+  if (std::count_if(members.begin(), members.end(), is_searchable) < 2) return options;
   const int folds = std::min<int>(kSearchFolds, static_cast<int>(labels.size()));
   const auto search = learning::search_svm(
       X, labels, learning::stratified_folds(labels, folds, seed), options, grid, threads);
   options.C = search.C;
   options.gamma = search.gamma;
-  options.probabilities = probabilities;
   return options;
 }
 
