@@ -27,9 +27,9 @@ $table
 
 - Opening begins with the samples in memory: least, greatest and automatic window of the values, three
   slices and the 3D view. Median of three. Volumes are generated (a gyroid with noise).
-- Dragging: each picture is a ZMC surface of the volume at half the resolution along each axis (at most
-  2²¹ samples), its drawing, and the contours of the full volume on three slices.
-- Turning: mouse events, each with its picture on the screen; a surface of at most 60,000 triangles, made
+- Dragging: each picture is a ZMC surface of the volume at a lower resolution (at most 2¹⁹
+  samples), its drawing, and the contours of the full volume on three slices.
+- Turning: mouse events, each with its picture on the screen; a surface of about 40,000 triangles, made
   by clustering vertices after the extraction, stands in for the full one. Medians.
 - Memory is the resident size; a software renderer keeps its copy of the surfaces there as well.
 END

@@ -144,6 +144,7 @@ void measure_dragging(MainWindow& window, Table& table) {
   auto* slider = view.panel()->findChild<QSlider*>("isovalue-slider");
   SceneWidget* scene = view.four_up()->scene();
   slider->setSliderDown(true);
+  emit slider->sliderPressed();
   const std::int64_t updates = view.coarse_updates(), frames = scene->frames();
   const Clock::time_point start = Clock::now();
   int step = 0;
@@ -192,8 +193,7 @@ void measure_turning(MainWindow& window, Table& table) {
       frame_times.push_back(seconds_since(start));
     }
     const Clock::time_point release = Clock::now();
-    send(gl, QEvent::MouseButtonRelease, at, false);
-    static_cast<void>(scene->draw_now());
+    send(gl, QEvent::MouseButtonRelease, at, false);  // VTK draws within
     release_times.push_back(seconds_since(release));
   }
   char label[128];

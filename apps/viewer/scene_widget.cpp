@@ -278,7 +278,7 @@ void SceneWidget::set_interacting(bool interacting) {
   for (const auto& entry : surfaces_) {
     if (const auto surface = entry.lock()) surface->set_coarse(interacting);
   }
-  if (!interacting) redraw();
+  renderer_->SetUseFXAA(!interacting);
 }
 
 bool SceneWidget::eventFilter(QObject* object, QEvent* event) {

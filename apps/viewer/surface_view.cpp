@@ -97,8 +97,11 @@ void SurfaceView::make_panel() {
   connect(remove_, &QPushButton::clicked, this, &SurfaceView::remove_selected);
   connect(color_, &QPushButton::clicked, this, &SurfaceView::choose_color);
   connect(slider_, &QSlider::valueChanged, this, &SurfaceView::slider_moved);
+  connect(slider_, &QSlider::sliderPressed, this,
+          [this] { four_up_->scene()->set_interacting(true); });
   connect(slider_, &QSlider::sliderReleased, this, [this] {
     settle_->stop();
+    four_up_->scene()->set_interacting(false);
     if (Item* item = selected()) request(*item, false);
     emit edited();
   });

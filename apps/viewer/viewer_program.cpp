@@ -11,10 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include <QVTKOpenGLNativeWidget.h>
 #include <CLI/CLI.hpp>
 #include <QApplication>
-#include <QSurfaceFormat>
 #include <QTimer>
 #include <nlohmann/json.hpp>
 
@@ -185,7 +183,7 @@ int run(int argc, char** argv, const Arguments& arguments) {
       std::cerr << "shape3d-viewer: " << text.toStdString() << '\n';
   });
   const std::string renderer = require_display();
-  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  set_surface_format();
   QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   QApplication application(argc, argv);
   QApplication::setApplicationDisplayName("Shape3D");

@@ -225,8 +225,8 @@ TEST_CASE("a large surface is turned as a coarse one and whole again after it",
     coarse = drawn_triangles(scene);
     turning = WindowFixture::grab(scene);
   });
-  CHECK(coarse > 20'000);
-  CHECK(coarse < 90'000);
+  CHECK(coarse > 15'000);
+  CHECK(coarse < 70'000);
   // Nearly the same picture.
   CHECK(changed_pixels(before, turning, 40) < before.width() * before.height() / 20);
   REQUIRE(shown.settle());
