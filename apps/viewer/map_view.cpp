@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/color_map.hpp"
+#include "common/error.hpp"
 #include "common/model_io.hpp"
 #include "common/text.hpp"
 #include "document.hpp"

@@ -9,7 +9,7 @@
 #include <QToolTip>
 
 #include "common/color_map.hpp"
-#include "common/text.hpp"
+#include "common/error.hpp"
 #include "model/collection_map.hpp"
 #include "theme.hpp"
 

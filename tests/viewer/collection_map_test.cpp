@@ -1,4 +1,4 @@
-#include "model/collection_map.hpp"
+#include "viewer/model/collection_map.hpp"
 
 #include <fstream>
 #include <map>

@@ -1,4 +1,4 @@
-#include "model/library_search.hpp"
+#include "viewer/model/library_search.hpp"
 
 #include <algorithm>
 #include <fstream>
