@@ -73,7 +73,7 @@ bool WindowFixture::settle() {
 }
 
 bool WindowFixture::wait_until(const std::function<bool()>& holds) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(90);
   while (!holds()) {
     if (std::chrono::steady_clock::now() > end) return false;
     QApplication::processEvents(QEventLoop::AllEvents, 20);
