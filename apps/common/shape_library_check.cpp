@@ -82,7 +82,8 @@ void check_blobs(const Sqlite& database, Faults& faults) {
 }
 
 void check_files(const Sqlite& database, Faults& faults) {
-  Sqlite::Statement rows = database.prepare("SELECT id, path, size, digest FROM models ORDER BY id");
+  Sqlite::Statement rows =
+      database.prepare("SELECT id, path, size, digest FROM models ORDER BY id");
   while (rows.step() && !faults.full()) {
     const std::int64_t id = rows.integer(0);
     const std::string path = rows.text(1), name = "model " + std::to_string(id) + ": ";

@@ -81,15 +81,15 @@ Sqlite::Sqlite(const std::string& path, Mode mode) : path_(path) {
                            nullptr);
   } else {
     // Readers too: the last one to close removes the log, which only one that could write does.
-    code = sqlite3_open_v2(
-        path.c_str(), &handle,
-        SQLITE_OPEN_READWRITE | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0), nullptr);
+    code = sqlite3_open_v2(path.c_str(), &handle,
+                           SQLITE_OPEN_READWRITE | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0),
+                           nullptr);
   }
   handle_.reset(handle);
   if (code == SQLITE_CANTOPEN) {
     const int reason = sqlite3_system_errno(handle);
-    throw FileError(path, "cannot be opened: " + std::string(std::strerror(
-                                                     reason != 0 ? reason : EACCES)));
+    throw FileError(
+        path, "cannot be opened: " + std::string(std::strerror(reason != 0 ? reason : EACCES)));
   }
   if (code != SQLITE_OK) fail(code);
   sqlite3_extended_result_codes(handle, 1);
@@ -138,10 +138,9 @@ Sqlite::Statement& Sqlite::Statement::bind(int parameter, const std::optional<st
   return text ? bind(parameter, std::string_view(*text)) : bind_null(parameter);
 }
 
-Sqlite::Statement& Sqlite::Statement::bind_blob(int parameter, const void* data,
-                                                std::size_t size) {
-  const int code = sqlite3_bind_blob64(statement_.get(), parameter, size == 0 ? "" : data, size,
-                                       SQLITE_STATIC);
+Sqlite::Statement& Sqlite::Statement::bind_blob(int parameter, const void* data, std::size_t size) {
+  const int code =
+      sqlite3_bind_blob64(statement_.get(), parameter, size == 0 ? "" : data, size, SQLITE_STATIC);
   if (code != SQLITE_OK) database_->fail(code);
   return *this;
 }
@@ -184,9 +183,9 @@ std::optional<std::string> Sqlite::Statement::optional_text(int column) const {
 std::string_view Sqlite::Statement::blob(int column) const {
   const void* data = sqlite3_column_blob(statement_.get(), column);
   const int size = sqlite3_column_bytes(statement_.get(), column);
-  return data == nullptr ? std::string_view()
-                         : std::string_view(static_cast<const char*>(data),
-                                            static_cast<std::size_t>(size));
+  return data == nullptr
+             ? std::string_view()
+             : std::string_view(static_cast<const char*>(data), static_cast<std::size_t>(size));
 }
 
 Sqlite::Transaction::Transaction(const Sqlite& database) : database_(database) {

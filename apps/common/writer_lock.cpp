@@ -23,7 +23,8 @@ WriterLock::WriterLock(const std::string& path) : lock_path_(path + "-lock") {
       throw FileError(path, "is being written by another process; try again when it has ended");
     }
     // The holder before may have removed the file between open() and flock().
-    struct stat held {}, named {};
+    struct stat held {
+    }, named{};
     if (fstat(descriptor_, &held) == 0 && stat(lock_path_.c_str(), &named) == 0 &&
         held.st_ino == named.st_ino && held.st_dev == named.st_dev) {
       return;

@@ -16,10 +16,10 @@ namespace {
 
 using Singles = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr Eigen::Index kPart = 16384;   // rows that one task looks at
-constexpr Eigen::Index kBlock = 1024;   // rows of one product
-constexpr Eigen::Index kGroup = 16;     // queries of one product
-constexpr Eigen::Index kBatch = 256;    // queries whose candidates are in memory together
+constexpr Eigen::Index kPart = 16384;      // rows that one task looks at
+constexpr Eigen::Index kBlock = 1024;      // rows of one product
+constexpr Eigen::Index kGroup = 16;        // queries of one product
+constexpr Eigen::Index kBatch = 256;       // queries whose candidates are in memory together
 constexpr double kUnit = 1.0 / (1 << 24);  // rounding to single precision
 
 void require_finite(const FeaturesView& X, const char* name) {
@@ -257,14 +257,13 @@ Neighbours ExactNeighbours::query(const FeaturesView& Q, Eigen::Index k, int thr
       }
     }
     const Eigen::Index groups = (count + kGroup - 1) / kGroup;
-    detail::parallel_blocks(
-        groups * parts, 1, threads, [&](std::int64_t first, std::int64_t last) {
-          for (std::int64_t task = first; task < last; ++task) {
-            const Eigen::Index from = task / parts * kGroup;
-            state.look(queries, from, std::min(kGroup, count - from), task % parts, candidates,
-                       static_cast<std::size_t>(parts));
-          }
-        });
+    detail::parallel_blocks(groups * parts, 1, threads, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t task = first; task < last; ++task) {
+        const Eigen::Index from = task / parts * kGroup;
+        state.look(queries, from, std::min(kGroup, count - from), task % parts, candidates,
+                   static_cast<std::size_t>(parts));
+      }
+    });
     detail::parallel_blocks(count, 1, threads, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t q = first; q < last; ++q) {
         Candidates all(k, bounds[static_cast<std::size_t>(q)]);
