@@ -69,7 +69,8 @@ zmc::VolumeView in_place_of(const zmc::VolumeView& view, const T* data) {
 }
 
 template <class T>
-void mark(const zmc::VolumeView& view, double label, std::vector<std::uint8_t>& mask) {
+void mark(const zmc::VolumeView& view, const std::vector<double>& labels,
+          std::vector<std::uint8_t>& mask) {
   const std::array<std::int64_t, 3> strides = view.effective_strides();
   const T* data = static_cast<const T*>(view.data);
   std::size_t n = 0;
@@ -78,41 +79,50 @@ void mark(const zmc::VolumeView& view, double label, std::vector<std::uint8_t>& 
       for (std::int64_t i = 0; i < view.dims[0]; ++i) {
         const auto value =
             static_cast<double>(data[i * strides[0] + j * strides[1] + k * strides[2]]);
-        mask[n++] = (label == 0.0 ? value != 0.0 : value == label) ? 1 : 0;
+        const bool counts = labels.empty()
+                                ? value != 0.0
+                                : std::find(labels.begin(), labels.end(), value) != labels.end();
+        mask[n++] = counts ? 1 : 0;
       }
     }
   }
 }
 
-Mask labelled(const zmc::VolumeView& view, double label) {
+Mask labelled(const zmc::VolumeView& view, const std::vector<double>& labels) {
   Mask mask;
   mask.dims = view.dims;
   mask.spacing = view.spacing;
   mask.samples.resize(static_cast<std::size_t>(view.dims[0] * view.dims[1] * view.dims[2]));
   switch (view.type) {
     case zmc::SampleType::int8:
-      mark<std::int8_t>(view, label, mask.samples);
+      mark<std::int8_t>(view, labels, mask.samples);
       break;
     case zmc::SampleType::uint8:
-      mark<std::uint8_t>(view, label, mask.samples);
+      mark<std::uint8_t>(view, labels, mask.samples);
       break;
     case zmc::SampleType::int16:
-      mark<std::int16_t>(view, label, mask.samples);
+      mark<std::int16_t>(view, labels, mask.samples);
       break;
     case zmc::SampleType::uint16:
-      mark<std::uint16_t>(view, label, mask.samples);
+      mark<std::uint16_t>(view, labels, mask.samples);
       break;
     case zmc::SampleType::int32:
-      mark<std::int32_t>(view, label, mask.samples);
+      mark<std::int32_t>(view, labels, mask.samples);
       break;
     case zmc::SampleType::float32:
-      mark<float>(view, label, mask.samples);
+      mark<float>(view, labels, mask.samples);
       break;
     case zmc::SampleType::float64:
-      mark<double>(view, label, mask.samples);
+      mark<double>(view, labels, mask.samples);
       break;
   }
   return mask;
+}
+
+std::string words_of(const std::vector<double>& labels) {
+  std::string words;
+  for (const double label : labels) words += (words.empty() ? "" : " or ") + to_text(label);
+  return words;
 }
 
 class Segmenting {
@@ -213,9 +223,9 @@ class Segmenting {
       tell(arguments_.truth + " lies up to " + rounded(off) + " mm from " + arguments_.volume +
            "; its samples are compared by index");
     }
-    const Mask whole = labelled(truth.view, arguments_.truth_label);
+    const Mask whole = labelled(truth.view, arguments_.truth_labels);
     result_.truth = labelled(zmc::subvolume(truth.view, result_.region.lower, result_.region.upper),
-                             arguments_.truth_label);
+                             arguments_.truth_labels);
     result_.truth->spacing = view.spacing;
     const auto count = [](const Mask& mask) {
       return std::count(mask.samples.begin(), mask.samples.end(), std::uint8_t{1});
@@ -223,9 +233,9 @@ class Segmenting {
     const auto inside = count(*result_.truth), all = count(whole);
     if (all == 0) {
       throw FileError(arguments_.truth,
-                      arguments_.truth_label == 0.0
+                      arguments_.truth_labels.empty()
                           ? "has no sample other than 0; expected an object"
-                          : "has no sample of label " + to_text(arguments_.truth_label));
+                          : "has no sample of label " + words_of(arguments_.truth_labels));
     }
     result_.truth_outside = all - inside;
     if (result_.truth_outside > 0)
