@@ -36,7 +36,8 @@ meshes=()
   *Flipped* counts flipped and degenerate triangles; *roundness* is the deviation of the radii over
   their mean before projection: large where the flow is far from a sphere.
 - **Cost**: Ceres' ½ Σ |r|², half the mean excess of σ1/σ2 + σ2/σ1 over 2 (docs/notes/mapping.md, 6);
-  *before* is that of the linear map. USER_SUCCESS: a full step gained less than the tolerance.
+  *before* is that of the linear map, *after* before the refinement of the angles. USER_SUCCESS: a full
+  step gained less than the tolerance. **All s**: with the refinement.
 - Generated bodies: capsules by the length of the cylinder over its radius, 32 vertices round;
   star-shaped bodies of log-radius in random spherical harmonics to degree 8; bodies whose coordinates
   are expansions to degree 6, some of which cut through themselves.

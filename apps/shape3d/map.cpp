@@ -59,6 +59,7 @@ Json to_json(const mapping::SphericalMap& map) {
           {"distortion", to_json(map.distortion)},
           {"linear_distortion", to_json(map.linear_distortion)},
           {"ceres", to_json(map.minimisation)},
+          {"refinement", to_json(map.refinement)},
           {"conformal_distortion",
            map.balancing.used ? to_json(map.conformal_distortion) : Json(nullptr)},
           {"balancing", to_json(map.balancing)},
@@ -220,6 +221,12 @@ std::string to_lines(const mapping::SphericalMap& map, const MapArguments& argum
                               std::to_string(map.minimisation.iterations) + " steps, " +
                               map.minimisation.termination) +
             line("linear angle change", "mean " + degrees(map.linear_distortion.angle_change.mean));
+  }
+  if (map.refinement.used) {
+    text += line("angles", "cost " + rounded(map.refinement.initial_cost) + " to " +
+                               rounded(map.refinement.final_cost) + " in " +
+                               std::to_string(map.refinement.iterations) + " steps, " +
+                               map.refinement.termination);
   }
   if (map.balancing.used) {
     text += line("before balancing",

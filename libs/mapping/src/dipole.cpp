@@ -6,7 +6,7 @@
 #include <queue>
 #include <utility>
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/CholmodSupport>
 
 namespace shape3d::mapping {
 namespace {
@@ -118,26 +118,38 @@ std::vector<std::int32_t> pole_candidates(const IntrinsicTriangulation& mesh,
 }
 
 struct DipoleSolver::State {
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>> factor;
+  /// Row of each vertex in the system; -1 for the grounded one, where z = 0.
+  std::vector<std::int32_t> row;
+  Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor;
 };
 
-DipoleSolver::DipoleSolver(const IntrinsicTriangulation& mesh)
+DipoleSolver::DipoleSolver(const IntrinsicTriangulation& mesh,
+                           const std::vector<std::int32_t>& order)
     : mesh_(mesh), state_(std::make_unique<State>()) {
-  // The last vertex is grounded: z = 0 there.
-  const std::int64_t n = mesh.vertex_count - 1;
+  const auto grounded = static_cast<std::int32_t>(mesh.vertex_count - 1);
+  std::vector<std::int32_t>& row = state_->row;
+  row.assign(mesh.vertex_count, -1);
+  std::int32_t n = 0;
+  for (const std::int32_t v : order) {
+    if (v != grounded) row[v] = n++;
+  }
   const std::vector<double> weights = cotangent_weights(mesh);
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(weights.size() + static_cast<std::size_t>(n));
-  std::vector<double> diagonal(mesh.vertex_count, 0);
+  std::vector<double> diagonal(n, 0);
   for (std::int32_t h = 0; h < static_cast<std::int32_t>(weights.size()); ++h) {
-    const std::int32_t i = mesh.origin[h], j = mesh.target(h);
-    if (i == j) continue;
+    const std::int32_t i = row[mesh.origin[h]], j = row[mesh.target(h)];
+    if (i == j || i < 0) continue;
     diagonal[i] += weights[h];
-    if (i > j && i < n) entries.emplace_back(i, j, -weights[h]);
+    if (i > j && j >= 0) entries.emplace_back(i, j, -weights[h]);
   }
   for (std::int32_t i = 0; i < n; ++i) entries.emplace_back(i, i, diagonal[i]);
   Eigen::SparseMatrix<double> L(n, n);
   L.setFromTriplets(entries.begin(), entries.end());
+  cholmod_common& settings = state_->factor.cholmod();
+  settings.print = 0;
+  settings.nmethods = 1;
+  settings.method[0].ordering = CHOLMOD_NATURAL;
   state_->factor.compute(L);
 }
 
@@ -152,17 +164,19 @@ PlanePoints DipoleSolver::solve(std::int32_t pole) const {
   const double foot = (ab * ab + ca * ca - bc * bc) / (2 * ab);
   const double height = 2 * triangle_cotangents(mesh_, pole).area / ab;
   const double theta = foot / ab;
-  const std::int64_t n = mesh_.vertex_count - 1;
-  Eigen::MatrixX2d b = Eigen::MatrixX2d::Zero(n, 2);
+  const std::vector<std::int32_t>& row = state_->row;
+  Eigen::MatrixX2d b = Eigen::MatrixX2d::Zero(mesh_.vertex_count - 1, 2);
   const auto add = [&](std::int32_t v, double x, double y) {
-    if (v < n) b.row(v) += Eigen::RowVector2d(x, y);
+    if (row[v] >= 0) b.row(row[v]) += Eigen::RowVector2d(x, y);
   };
   add(mesh_.origin[3 * pole], -1 / ab, (1 - theta) / height);
   add(mesh_.origin[3 * pole + 1], 1 / ab, theta / height);
   add(mesh_.origin[3 * pole + 2], 0, -1 / height);
   const Eigen::MatrixX2d x = state_->factor.solve(b);
   PlanePoints z(mesh_.vertex_count, Complex(0, 0));
-  for (std::int64_t i = 0; i < n; ++i) z[i] = {x(i, 0), x(i, 1)};
+  for (std::size_t v = 0; v < z.size(); ++v) {
+    if (row[v] >= 0) z[v] = {x(row[v], 0), x(row[v], 1)};
+  }
 
   // The outer triangle is the pole turned inside out; so the others run the way opposite to it.
   const Complex A = z[mesh_.origin[3 * pole]], B = z[mesh_.origin[3 * pole + 1]],

@@ -22,7 +22,8 @@ namespace shape3d::mapping {
 /// Tutte's embedding in the triangle that the pole's vertices form, whose outside is the pole.
 class DipoleSolver {
  public:
-  explicit DipoleSolver(const IntrinsicTriangulation& mesh);
+  /// @param order  In which the vertices are eliminated: see elimination_order().
+  DipoleSolver(const IntrinsicTriangulation& mesh, const std::vector<std::int32_t>& order);
   ~DipoleSolver();
   DipoleSolver(const DipoleSolver&) = delete;
   DipoleSolver& operator=(const DipoleSolver&) = delete;

@@ -6,12 +6,11 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "angle_residual.hpp"
 #include "rest_shape.hpp"
 #include "shape3d/mapping/spherical_map.hpp"
 
 namespace shape3d::mapping {
-
-using RowMatrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) {
   Eigen::Matrix3d m;

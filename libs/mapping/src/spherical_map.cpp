@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 
 #include "dipole.hpp"
+#include "elimination_order.hpp"
 #include "intrinsic.hpp"
 #include "minimise.hpp"
 #include "mobius.hpp"
@@ -130,7 +131,12 @@ class Mapper {
     map_.delaunay_flips = mesh.flips;
     map_.seconds.delaunay = watch.lap();
     if (!go_on(0.05)) return Status::cancelled;
-    const DipoleSolver solver(mesh);
+    HalfEdges edges;
+    edges.reserve(mesh.origin.size());
+    for (std::int32_t h = 0; h < static_cast<std::int32_t>(mesh.origin.size()); ++h) {
+      edges.push_back({mesh.origin[h], mesh.target(h)});
+    }
+    const DipoleSolver solver(mesh, elimination_order(V_, edges));
     if (!solver.factorised()) return Status::solver_failed;
     map_.seconds.linear = watch.lap();
     if (!go_on(0.15)) return Status::cancelled;
@@ -163,20 +169,27 @@ class Mapper {
     }
     if (!go_on(0.2)) return Status::cancelled;
 
+    std::vector<Points> maps{linear};  // the later, the better
     if (!options_.linear) {
-      map_.S = linear;
+      order_ = elimination_order(linear, half_edges(F_));
+      map_.S = std::move(linear);
       if (!minimised(0, map_.minimisation)) return Status::cancelled;
+      maps.push_back(map_.S);
+      if (refining()) {
+        if (!refined()) return Status::cancelled;
+        maps.push_back(map_.S);
+      }
       map_.seconds.minimise = watch.lap();
-      map_.S = centred(in_plane(map_.S), areas_);
+    }
+    for (; !maps.empty(); maps.pop_back()) {
+      // The linear map is centred.
+      map_.S = maps.size() > 1 ? centred(in_plane(maps.back()), areas_) : std::move(maps.back());
       turn(map_.S);
       map_.seconds.centre += watch.lap();
       if (finished()) return balanced();
       watch.lap();
     }
-    map_.S = std::move(linear);
-    turn(map_.S);
-    map_.seconds.centre += watch.lap();
-    return finished() ? balanced() : failure();
+    return failure();
   }
 
   /// From a certified conformal map to the one with the areas balanced.
@@ -199,7 +212,11 @@ class Mapper {
     settings.energy = options_.energy;
     settings.area_weight = area_weight;
     settings.max_iterations = options_.max_iterations;
-    settings.function_tolerance = options_.function_tolerance;
+    // Where the refinement goes on it need not be exact.
+    settings.function_tolerance = area_weight == 0 && refining()
+                                      ? std::sqrt(options_.function_tolerance)
+                                      : options_.function_tolerance;
+    settings.order = order_;
     settings.iterate = [this, area_weight](int iteration) {
       // Convergence takes some ten iterations.
       const double share = 0.95 - 0.75 * std::exp(-0.15 * iteration);
@@ -207,6 +224,24 @@ class Mapper {
       return go_on(shown_);
     };
     return minimise(V_, F_, twins_, settings, map_.S, summary);
+  }
+
+  [[nodiscard]] bool refining() const {
+    return options_.refine_angles && options_.energy == Energy::conformal;
+  }
+
+  bool refined() {
+    MinimiseSettings settings;
+    settings.max_iterations = options_.max_iterations;
+    // Most is won in the first steps; re-weighting converges linearly.
+    settings.function_tolerance = std::min(0.1, 10 * options_.function_tolerance);
+    settings.largest_radius = 1e8;  // rotations about the held vertex need some damping
+    settings.order = order_;
+    settings.iterate = [this](int iteration) {
+      shown_ = std::max(shown_, 0.95 - 0.3 * std::exp(-0.3 * iteration));
+      return go_on(shown_);
+    };
+    return refine_angles(V_, F_, twins_, settings, map_.S, map_.refinement);
   }
 
   [[nodiscard]] Eigen::RowVector3d centroid() const {
@@ -256,7 +291,8 @@ class Mapper {
   Twins twins_;
   Points V_;
   Eigen::VectorXd areas_;
-  double shown_ = 0.2;  ///< Share last reported by the minimisation.
+  std::vector<std::int32_t> order_;  ///< Of elimination.
+  double shown_ = 0.2;               ///< Share last reported by the minimisation.
   SphericalMap map_;
 };
 

@@ -116,4 +116,30 @@ TEST_CASE("the area residual is the logarithm of the area scale, its Jacobian th
   }
 }
 
+TEST_CASE(
+    "corner angles add up to pi, are those of the law of cosines, their Jacobians differences") {
+  std::mt19937 random(11);
+  for (int i = 0; i < 50; ++i) {
+    const std::array<Eigen::Vector3d, 3> corners = random_case(random).corners;
+    std::array<RowMatrix3, 3> analytic;
+    const Eigen::Vector3d angles = corner_angles(corners, &analytic);
+    CHECK(angles.sum() == Approx(3.14159265358979323846));
+    for (int k = 0; k < 3; ++k) {
+      const double a = (corners[(k + 1) % 3] - corners[k]).norm();
+      const double b = (corners[(k + 2) % 3] - corners[k]).norm();
+      const double c = (corners[(k + 1) % 3] - corners[(k + 2) % 3]).norm();
+      CHECK(std::cos(angles[k]) == Approx((a * a + b * b - c * c) / (2 * a * b)).margin(1e-12));
+      for (int axis = 0; axis < 3; ++axis) {
+        std::array<Eigen::Vector3d, 3> up = corners, down = corners;
+        const double h = 1e-6 * std::min(a, b);
+        up[k][axis] += h;
+        down[k][axis] -= h;
+        const Eigen::Vector3d numeric =
+            (corner_angles(up, nullptr) - corner_angles(down, nullptr)) / (2 * h);
+        CHECK((analytic[k].col(axis) - numeric).norm() < 1e-5 * (1 + analytic[k].norm()));
+      }
+    }
+  }
+}
+
 }  // namespace
