@@ -92,7 +92,7 @@ def write_page(measured, beside):
 `scripts/benchmark-levelset.py` writes this page: {cpu}, {os.cpu_count()} processors{'; ' + note if note else ''}.
 
 `shape3d segment` with three classes on regions of 290 × 380 × 62 samples of 16 bits, from the box;
-medians of {measured['rounds']}. Estimation is all before the evolution; the peak is that of the whole process, with the volume that it
+{'single runs' if measured['rounds'] == 1 else f"medians of {measured['rounds']}"}. Estimation is all before the evolution; the peak is that of the whole process, with the volume that it
 read and the label map that it wrote.
 
 | region | threads | estimation, s | evolution, s | steps | peak, MiB |
