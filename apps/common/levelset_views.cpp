@@ -1,7 +1,6 @@
 #include "levelset_views.hpp"
 
 #include <algorithm>
-
 #include <cstdint>
 #include <vector>
 

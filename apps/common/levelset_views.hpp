@@ -1,8 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include <shape3d/levelset/image_view.hpp>
 #include <shape3d/zmc/volume_view.hpp>
-#include <vector>
 
 #include "label_map.hpp"
 
@@ -21,7 +22,7 @@ template <class T>
   return result;
 }
 
-/// The samples of these labels; without any, all that are not 0.
-[[nodiscard]] Mask labelled(const zmc::VolumeView& view, const std::vector<double>& labels = {});
+/// The samples of these labels; without any: all that are not 0.
+[[nodiscard]] Mask labelled(const zmc::VolumeView& view, const std::vector<double>& labels);
 
 }  // namespace shape3d::apps

@@ -161,8 +161,8 @@ class SliceItem : public vtkContextItem {
   ~SliceItem() override = default;
 
  private:
-  // Points nearer than a tenth of a pixel to the last one are left out: VTK builds wide lines from
-  // the normals of their segments, and one without length takes its neighbours with it.
+  // Points nearer than a tenth of a pixel to the last one are left out, for they have no direction;
+  // a loop that is smaller, round a single sample, is a dot, or nothing would be seen of it.
   void draw(vtkContext2D* painter, const std::vector<std::array<double, 2>>& line) const {
     constexpr float kLeast = 0.1F, kDot = 0.8F;
     std::vector<float> points;
