@@ -17,16 +17,18 @@
 #include "common/mesh_io.hpp"
 #include "common/output_file.hpp"
 #include "markdown_table.hpp"
-#include "princeton.hpp"
-#include "retrieval_measures.hpp"
+#include "shape3d/collection.hpp"
 #include "shape3d/descriptors/descriptor.hpp"
+#include "shape3d/learning/distance.hpp"
+#include "shape3d/learning/retrieval.hpp"
 
 namespace {
 using namespace shape3d;
 using namespace shape3d::bench;
+using learning::Distance;
 using Clock = std::chrono::steady_clock;
 
-/// A row of the table: "name | SPEC | L1 or L2".
+/// A row of the table: "name | SPEC | distance".
 struct Entry {
   std::string name, spec;
   Distance distance = Distance::L2;
@@ -50,20 +52,20 @@ std::vector<Entry> read_entries(const std::string& path) {
     const auto first = line.find('|'), second = line.find('|', first + 1);
     const std::string distance =
         second == std::string::npos ? "" : trimmed(line.substr(second + 1));
-    if (distance != "L1" && distance != "L2") {
+    const auto kind = learning::distance_named(distance);
+    if (!kind) {
       throw apps::FileError(path, "line " + std::to_string(number) + " is '" + line +
-                                      "', expected: name | descriptor | L1 or L2");
+                                      "', expected: name | descriptor | distance");
     }
     entries.push_back({trimmed(line.substr(0, first)),
-                       trimmed(line.substr(first + 1, second - first - 1)),
-                       distance == "L1" ? Distance::L1 : Distance::L2});
+                       trimmed(line.substr(first + 1, second - first - 1)), *kind});
   }
   return entries;
 }
 
 struct Library {
   std::vector<apps::Mesh> meshes;
-  std::vector<std::size_t> of_class;
+  learning::Labels labels;
   std::vector<std::string> left_out;  ///< Sentences.
   double reading = 0.0;               ///< Seconds.
 };
@@ -72,26 +74,27 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-Library read_library(const Classification& classification, const std::string& folder) {
+Library read_library(const apps::Collection& collection) {
   const auto start = Clock::now();
-  const std::size_t count = classification.models.size();
+  const std::size_t count = collection.models.size();
   std::vector<apps::Mesh> meshes(count);
   std::vector<std::string> failures(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     try {
-      meshes[i] = apps::read_mesh(model_path(folder, classification.models[i].id)).mesh;
+      meshes[i] = apps::read_mesh(collection.models[i].path).mesh;
     } catch (const apps::FileError& error) {
       failures[i] = error.what();
     }
   });
   Library library;
+  library.left_out = collection.missing;
   for (std::size_t i = 0; i < count; ++i) {
     if (!failures[i].empty()) {
       library.left_out.push_back(failures[i]);
       continue;
     }
     library.meshes.push_back(std::move(meshes[i]));
-    library.of_class.push_back(classification.models[i].of_class);
+    library.labels.push_back(collection.models[i].of_class);
   }
   library.reading = seconds_since(start);
   return library;
@@ -145,7 +148,7 @@ int run(int argc, char** argv) {
   program.add_option("--classes", classes, "Classification, a .cla file")->required();
   program.add_option("--models", models, "Folder of the models: <id/100>/m<id>/m<id>.off")
       ->required();
-  program.add_option("--list", list, "Rows: name | descriptor | L1 or L2")->required();
+  program.add_option("--list", list, "Rows: name | descriptor | distance")->required();
   program.add_option("-o,--output", output, "Markdown table; standard output without it");
   program.add_option("--threads", threads, "Threads; 0 is all processors")
       ->check(CLI::NonNegativeNumber);
@@ -159,7 +162,8 @@ int run(int argc, char** argv) {
   const std::vector<Entry> entries = read_entries(list);
   std::vector<descriptors::Descriptor> parsed;  // all of them before the long work
   for (const Entry& entry : entries) parsed.push_back(descriptors::Descriptor::parse(entry.spec));
-  const Library library = read_library(read_classification(classes), models);
+  const Library library =
+      read_library(apps::princeton_collection(classes, models, apps::kPrincetonPattern));
   if (library.meshes.size() < 2) throw apps::FileError(models, "has fewer than two of the models");
 
   const auto start = Clock::now();
@@ -169,12 +173,16 @@ int run(int argc, char** argv) {
       {"descriptor", "numbers", "distance", "NN", "1st tier", "2nd tier", "E", "DCG"});
   int queries = 0;
   for (std::size_t e = 0; e < entries.size(); ++e) {
-    const RetrievalMeasures measures =
-        retrieval_measures(distances(vectors[e], entries[e].distance), library.of_class);
-    queries = measures.queries;
+    const learning::Features X = vectors[e];
+    const learning::RetrievalMeans means =
+        learning::evaluate_retrieval(learning::distances(X, X, entries[e].distance, threads),
+                                     library.labels, {{}, threads})
+            .micro;
+    const learning::RetrievalMeasures& measures = means.measures;
+    queries = means.queries;
     const auto percent = [](double share) { return fixed(100.0 * share, 1); };
     table.add({entries[e].name, std::to_string(parsed[e].length()),
-               entries[e].distance == Distance::L1 ? "L1" : "L2",
+               std::string(learning::to_string(entries[e].distance)),
                percent(measures.nearest_neighbour), percent(measures.first_tier),
                percent(measures.second_tier), percent(measures.e_measure), percent(measures.dcg)});
     std::cerr << entries[e].name << ": NN " << percent(measures.nearest_neighbour) << ", DCG "

@@ -83,8 +83,11 @@ std::string protocol_of(const EvaluateArguments& arguments, const EvaluatedSet& 
   return text + " What is fitted for a model has seen the other " +
          std::to_string(arguments.folds - 1) + " of " + std::to_string(arguments.folds) +
          " folds alone" +
-         (arguments.fold_by == "class" ? ": no model of its class, since folds hold whole classes."
-                                       : ", parameters included.");
+         (arguments.fold_by == "class"
+              ? ": no model of its class, since folds hold whole classes. It looks for its class "
+                "in its "
+                "own fold, of which nothing that is fitted for it has seen a model."
+              : ", parameters included.");
 }
 
 // The classifier's result against the labels of a group, models of unknown classes left out.
@@ -105,7 +108,46 @@ ClassifierResult judged(ClassificationResult result, const EvaluatedSet& set,
   judged.confusion =
       learning::confusion(truth, result.predicted, static_cast<int>(names.names.size()));
   judged.result = std::move(result);
+  judged.truth = std::move(truth);
   return judged;
+}
+
+std::vector<ComparedClassifiers> compared(const std::vector<ClassifierResult>& classifiers) {
+  std::vector<ComparedClassifiers> comparisons;
+  for (std::size_t i = 0; i < classifiers.size(); ++i) {
+    for (std::size_t j = i + 1; j < classifiers.size(); ++j) {
+      const ClassifierResult &a = classifiers[i], &b = classifiers[j];
+      // Models that are not counted are right for neither.
+      learning::Labels first = a.result.predicted, second = b.result.predicted;
+      for (std::size_t m = 0; m < a.truth.size(); ++m) {
+        if (a.truth[m] == learning::kUnlabelled) first[m] = second[m] = 0;
+      }
+      comparisons.push_back({a.result.name, b.result.name, a.result.length == b.result.length,
+                             learning::paired_test(a.truth, first, second)});
+    }
+  }
+  return comparisons;
+}
+
+// Where folds are libraries of their own, the mean of theirs.
+learning::ChanceLevel chance_of(const EvaluateArguments& arguments, const LabelGroup& group,
+                                const std::vector<int>& folds) {
+  if (arguments.fold_by != "class") return learning::chance_level(group.labels);
+  learning::ChanceLevel sum;
+  double queries = 0.0;
+  for (int fold = 0; fold < arguments.folds; ++fold) {
+    learning::Labels labels;
+    for (std::size_t i = 0; i < folds.size(); ++i) {
+      if (folds[i] == fold) labels.push_back(group.labels[i]);
+    }
+    const learning::ChanceLevel one = learning::chance_level(labels);
+    const auto count = static_cast<double>(labels.size());
+    sum.nearest_neighbour += count * one.nearest_neighbour;
+    sum.first_tier += count * one.first_tier;
+    sum.second_tier += count * one.second_tier;
+    queries += count;
+  }
+  return {sum.nearest_neighbour / queries, sum.first_tier / queries, sum.second_tier / queries};
 }
 
 // Methods whose distances are weighted: those that combine descriptors, or the only one.
@@ -161,7 +203,7 @@ void evaluate(const EvaluateArguments& arguments, const Settings& settings) {
   for (const LabelGroup& group : label_groups(set.test)) {
     GroupResult result;
     result.group = group;
-    result.chance = learning::chance_level(group.labels);
+    result.chance = chance_of(arguments, group, folds);
     weighted.emplace_back();
     if (arguments.svm || arguments.weighted) {
       for (ClassificationResult& one : classifications(
@@ -176,6 +218,7 @@ void evaluate(const EvaluateArguments& arguments, const Settings& settings) {
         result.classification.push_back(judged(std::move(one), set, group, names));
       }
     }
+    result.comparisons = compared(result.classification);
     progress.stage("measuring " + group.name);
     std::vector<const RetrievalMethod*> all;
     for (const RetrievalMethod& method : methods) all.push_back(&method);

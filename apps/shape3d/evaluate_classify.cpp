@@ -20,12 +20,13 @@ using learning::Labels;
 using learning::SvmOptions;
 
 // γ in units of one over the variance of all columns together.
-const learning::SvmGrid kGrid{{2.0, 8.0, 32.0}, {0.25, 0.5, 1.0, 2.0}};
-constexpr int kSearchFolds = 5;
+const learning::SvmGrid kGrid{{2.0, 8.0}, {0.5, 1.0, 2.0}};
+constexpr int kSearchFolds = 3;
 constexpr int kMostNestedSearches = 10;
 constexpr int kMostColumns = 100;
 
-// Options found by cross-validation on the rows that have a label.
+// Options found by cross-validation on the rows that have a label; the middle of the grid where
+// fewer than two classes have two members.
 SvmOptions searched_options(const FeaturesView& X, const Labels& labels, bool are_components,
                             bool probabilities, std::uint64_t seed, int threads) {
   SvmOptions options;
@@ -40,12 +41,20 @@ SvmOptions searched_options(const FeaturesView& X, const Labels& labels, bool ar
   if (variance > 0.0) {
     for (double& gamma : grid.gamma) gamma /= variance;
   }
+  options.C = grid.C.back();
+  options.gamma = grid.gamma[1];
+  options.probabilities = probabilities;
+  std::map<int, int> members;
+  for (const int label : labels) {
+    if (label != kUnlabelled) ++members[label];
+  }
+  const auto is_searchable = [](const auto& one) { return one.second > 1; };
+  if (std::count_if(members.begin(), members.end(), is_searchable) < 2) return options;
   const int folds = std::min<int>(kSearchFolds, static_cast<int>(labels.size()));
   const auto search = learning::search_svm(
       X, labels, learning::stratified_folds(labels, folds, seed), options, grid, threads);
   options.C = search.C;
   options.gamma = search.gamma;
-  options.probabilities = probabilities;
   return options;
 }
 
@@ -209,8 +218,9 @@ std::vector<ClassificationResult> classifications(const EvaluateArguments& argum
                                             arguments.seed, threads)
                                   : cross_validated(input.test, group.labels, folds, classes,
                                                     wanted, arguments.seed, threads);
-    results.push_back({input.name, input.baseline, found.options.C, found.options.gamma,
-                       std::move(found.labels), std::move(found.probabilities)});
+    results.push_back({input.name, input.baseline, input.test.cols(), found.options.C,
+                       found.options.gamma, std::move(found.labels),
+                       std::move(found.probabilities)});
   }
   return results;
 }

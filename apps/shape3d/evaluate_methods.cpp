@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <shape3d/learning/classification.hpp>
 #include <shape3d/learning/distance.hpp>
@@ -34,6 +35,17 @@ Features rows_of(const FeaturesView& X, const std::vector<Eigen::Index>& rows) {
     result.row(static_cast<Eigen::Index>(i)) = X.row(rows[i]);
   }
   return result;
+}
+
+// Models of other folds become infinitely far.
+void keep_folds_apart(const std::vector<int>& folds, Eigen::MatrixXd& D) {
+  for (Eigen::Index i = 0; i < D.rows(); ++i) {
+    for (Eigen::Index j = 0; j < D.cols(); ++j) {
+      if (folds[static_cast<std::size_t>(i)] != folds[static_cast<std::size_t>(j)]) {
+        D(i, j) = std::numeric_limits<double>::infinity();
+      }
+    }
+  }
 }
 
 // Distances after a metric learnt from the train part, or row by row from the other folds.
@@ -169,6 +181,12 @@ std::vector<RetrievalMethod> retrieval_methods(const EvaluateArguments& argument
   fusion.explanation = "sum of the distances by " + std::to_string(parts.size()) +
                        " descriptors, each in units of its mean " + unit_of;
   fusion.D = learning::fused(parts);
+  if (arguments.fold_by == "class") {
+    // A metric treats models that it was learnt from otherwise than new ones: among the classes
+    // that it has seen, those of one fold would be found by that alone.
+    keep_folds_apart(folds, fusion.D);
+    for (RetrievalMethod& method : methods) keep_folds_apart(folds, method.D);
+  }
   const auto scaled = [](const RetrievalMethod& method) {
     RetrievalMethod result;
     result.name = method.name + ", scaled";
@@ -193,6 +211,7 @@ std::vector<RetrievalMethod> retrieval_methods(const EvaluateArguments& argument
         "Euclidean distance of the descriptors together after a linear map learnt from " +
         (set.train ? set.train->source : "the other folds");
     learned.D = learned_distances(set, fused_descriptors(set), folds, threads);
+    if (arguments.fold_by == "class") keep_folds_apart(folds, learned.D);
     combined.push_back(learned);
     combined.push_back(scaled(learned));
   }

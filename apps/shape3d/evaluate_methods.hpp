@@ -33,6 +33,7 @@ struct RetrievalMethod {
 struct ClassificationResult {
   std::string name;  ///< Of the descriptor.
   bool baseline = false;
+  Eigen::Index length = 0;           ///< Numbers of a vector.
   double C = 0.0, gamma = 0.0;       ///< Of the last machine that was trained.
   learning::Labels predicted;        ///< In joint_classes().
   learning::Features probabilities;  ///< Models by joint_classes(); may be empty.

@@ -226,6 +226,21 @@ std::string confusion_table(const ClassifierResult& one, const Evaluation& evalu
   return table.text();
 }
 
+// Pairs of vectors of equal length.
+std::string comparison_text(const GroupResult& group) {
+  Table table({"first", "second", "only the first is right", "only the second is right", "p"});
+  bool has_rows = false;
+  for (const ComparedClassifiers& pair : group.comparisons) {
+    if (!pair.equal_length) continue;
+    has_rows = true;
+    table.add({pair.first, pair.second, std::to_string(pair.test.first_only),
+               std::to_string(pair.test.second_only), rounded(pair.test.p)});
+  }
+  if (!has_rows) return {};
+  return "\nVectors of equal length on the same models, McNemar's exact test (two-sided):\n\n" +
+         table.text();
+}
+
 std::string list_of(const std::vector<std::string>& sentences) {
   constexpr std::size_t kMost = 50;
   std::string text;
@@ -285,6 +300,14 @@ Json to_json(const Evaluation& evaluation) {
     for (const ClassifierResult& classifier : group.classification) {
       one["classification"].push_back(to_json(classifier, evaluation));
     }
+    one["paired_tests"] = Json::array();
+    for (const ComparedClassifiers& pair : group.comparisons) {
+      one["paired_tests"].push_back({{"first", pair.first},
+                                     {"second", pair.second},
+                                     {"first_only", pair.test.first_only},
+                                     {"second_only", pair.test.second_only},
+                                     {"p", pair.test.p}});
+    }
     json["groups"].push_back(std::move(one));
   }
   json["seconds"] = {{"describing", set.describing}, {"evaluating", evaluation.seconds}};
@@ -320,6 +343,7 @@ std::string to_markdown(const Evaluation& evaluation) {
       text += "\n" + std::to_string(untrained) +
               " models are of classes that were not trained, and are not counted.\n";
     }
+    text += comparison_text(group);
     const ClassifierResult& last = group.classification.back();
     if (evaluation.class_names.size() <= 20) {
       text += "\nConfusions, trained on " + last.result.name + ":\n\n" +

@@ -18,7 +18,15 @@ struct MethodResult {
 struct ClassifierResult {
   ClassificationResult result;
   learning::Confusion confusion;  ///< Classes of joint_classes().
+  learning::Labels truth;         ///< kUnlabelled: not counted.
   int untrained = 0;  ///< Models of classes that were not trained, which are not counted.
+};
+
+/// Two classifiers on the same models.
+struct ComparedClassifiers {
+  std::string first, second;
+  bool equal_length = false;  ///< Of vectors of as many numbers.
+  learning::PairedTest test;
 };
 
 struct GroupResult {
@@ -26,6 +34,7 @@ struct GroupResult {
   learning::ChanceLevel chance;
   std::vector<MethodResult> retrieval;
   std::vector<ClassifierResult> classification;
+  std::vector<ComparedClassifiers> comparisons;  ///< All pairs.
 };
 
 /// All that is reported.

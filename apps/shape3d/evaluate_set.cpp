@@ -172,8 +172,9 @@ std::vector<EvaluatedDescriptor> baseline_descriptors() {
           part("EGI 17", "egi:K=16", Distance::L1),
           part("CSM 45, 5 x 9", "csm:R=5,K=8,fill=binary", Distance::L2),
           part("CSM 45, 9 x 5", "csm:R=9,K=4,fill=binary", Distance::L2),
+          part("CSM 45, 5 x 9, weighted", "csm:R=5,K=8,weighted=yes,unit=yes", Distance::L2),
           part("HSH 45, two-sided, binary", "hsh:map=two_sided,K=8,fill=binary", Distance::L2),
-          part("HSH 45", "hsh:K=8", Distance::L2)};
+          part("HSH 45", "hsh:K=8,unit=yes", Distance::L2)};
 }
 
 EvaluatedSet described_set(const EvaluateArguments& arguments, const Settings& settings) {

@@ -51,13 +51,14 @@ Eigen::MatrixXd locally_scaled(const Eigen::Ref<const Eigen::MatrixXd>& D, int k
   require_square(D);
   if (k < 1) throw std::invalid_argument("k is " + std::to_string(k) + ", expected 1 or more");
   const Eigen::Index n = D.rows();
-  const auto nearest = static_cast<std::size_t>(std::min<Eigen::Index>(k, n - 1));
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(n);
-  for (Eigen::Index i = 0; i < n && nearest > 0; ++i) {
+  for (Eigen::Index i = 0; i < n; ++i) {
     std::vector<double> row;
     for (Eigen::Index j = 0; j < n; ++j) {
-      if (j != i) row.push_back(D(i, j));
+      if (j != i && std::isfinite(D(i, j))) row.push_back(D(i, j));
     }
+    const std::size_t nearest = std::min(static_cast<std::size_t>(k), row.size());
+    if (nearest == 0) continue;
     std::partial_sort(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(nearest), row.end());
     double sum = 0.0;
     for (std::size_t j = 0; j < nearest; ++j) sum += row[j];

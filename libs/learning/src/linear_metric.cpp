@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <stdexcept>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
 
+#include "bytes.hpp"
 #include "text.hpp"
 
 namespace shape3d::learning {
@@ -19,45 +19,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::string_view kMagic = "shape3d linear metric\n";
 constexpr std::uint32_t kVersion = 1;
-
-// FNV-1a.
-std::uint64_t check_sum(std::string_view bytes) {
-  std::uint64_t sum = 14695981039346656037u;
-  for (const char c : bytes) sum = (sum ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  return sum;
-}
-
-void put(std::string& bytes, std::uint64_t value, int size) {
-  for (int i = 0; i < size; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xff);
-}
-
-void put(std::string& bytes, double value) {
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  put(bytes, bits, 8);
-}
-
-std::uint64_t take(std::string_view& bytes, int size) {
-  if (bytes.size() < static_cast<std::size_t>(size)) {
-    throw std::invalid_argument("bytes of a linear metric end early");
-  }
-  std::uint64_t value = 0;
-  for (int i = 0; i < size; ++i) {
-    value |= std::uint64_t{static_cast<unsigned char>(bytes[static_cast<std::size_t>(i)])}
-             << (8 * i);
-  }
-  bytes.remove_prefix(static_cast<std::size_t>(size));
-  return value;
-}
-
-double take_number(std::string_view& bytes) {
-  const std::uint64_t bits = take(bytes, 8);
-  double value = 0.0;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
-}
 
 void require_finite(const FeaturesView& X) {
   if (X.allFinite()) return;
@@ -171,44 +133,25 @@ Features LinearMetric::apply(const FeaturesView& X) const {
 }
 
 std::string LinearMetric::serialize() const {
-  std::string payload;
-  put(payload, static_cast<std::uint64_t>(transform.rows()), 8);
-  put(payload, static_cast<std::uint64_t>(transform.cols()), 8);
-  for (const double value : mean) put(payload, value);
-  for (Index i = 0; i < transform.rows(); ++i) {
-    for (Index j = 0; j < transform.cols(); ++j) put(payload, transform(i, j));
-  }
-  std::string bytes(kMagic);
-  put(bytes, kVersion, 4);
-  put(bytes, check_sum(payload), 8);
-  return bytes + payload;
+  detail::ByteWriter writer;
+  writer.u32(kVersion);
+  writer.vector(mean);
+  writer.matrix(transform);
+  return writer.finish();
 }
 
 LinearMetric LinearMetric::deserialize(std::string_view bytes) {
-  if (bytes.substr(0, kMagic.size()) != kMagic) {
-    throw std::invalid_argument("bytes are not of a linear metric");
-  }
-  bytes.remove_prefix(kMagic.size());
-  const std::uint64_t version = take(bytes, 4);
+  detail::ByteReader reader(bytes, "the linear metric");
+  const std::uint32_t version = reader.u32();
   if (version != kVersion) {
-    throw std::invalid_argument("linear metric is of version " + std::to_string(version) +
+    throw std::invalid_argument("the linear metric is of version " + std::to_string(version) +
                                 ", expected " + std::to_string(kVersion));
   }
-  if (take(bytes, 8) != check_sum(bytes)) {
-    throw std::invalid_argument("linear metric is damaged: its check sum is another");
-  }
-  const std::uint64_t rows = take(bytes, 8), columns = take(bytes, 8);
-  constexpr std::uint64_t kMost = 1u << 24;
-  if (rows > kMost || columns > kMost || bytes.size() != 8 * columns * (rows + 1)) {
-    throw std::invalid_argument("linear metric is damaged: its size does not fit");
-  }
   LinearMetric metric;
-  metric.mean.resize(static_cast<Index>(columns));
-  metric.transform.resize(static_cast<Index>(rows), static_cast<Index>(columns));
-  for (double& value : metric.mean) value = take_number(bytes);
-  for (Index i = 0; i < metric.transform.rows(); ++i) {
-    for (Index j = 0; j < metric.transform.cols(); ++j) metric.transform(i, j) = take_number(bytes);
-  }
+  metric.mean = reader.vector();
+  metric.transform = reader.matrix();
+  reader.require(metric.transform.cols() == metric.mean.size(), "its sizes do not fit");
+  reader.finish();
   return metric;
 }
 

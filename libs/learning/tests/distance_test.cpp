@@ -141,6 +141,13 @@ TEST_CASE("local scaling makes neighbourhoods of all densities alike") {
     return (row[0] + row[1] + row[2] + row[3] + row[4]) / 5.0;
   };
   CHECK(scaled(3, 30) == Approx(D(3, 30) / std::sqrt(unit(3) * unit(30))));
+  // Two collections that are infinitely far from each other are scaled each by itself.
+  MatrixXd apart = D;
+  apart.topRightCorner(20, 20).setConstant(std::numeric_limits<double>::infinity());
+  apart.bottomLeftCorner(20, 20) = apart.topRightCorner(20, 20);
+  const MatrixXd each = locally_scaled(apart, 30);
+  CHECK(each.topLeftCorner(20, 20) == locally_scaled(D.topLeftCorner(20, 20), 19));
+  CHECK(std::isinf(each(0, 20)));
   // Copies have no unit of their own, and no distance becomes infinite.
   const MatrixXd copies = locally_scaled(MatrixXd::Zero(4, 4), 2);
   CHECK(copies == MatrixXd::Zero(4, 4));

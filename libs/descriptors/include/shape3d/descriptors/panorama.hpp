@@ -34,7 +34,8 @@ struct PanoramaImages {
   std::array<Eigen::MatrixXd, 3> facing;
 };
 
-/// Surfaces are sampled at the middles of parts of triangles with edges of at most one row. Where
+/// Surfaces are sampled at the middles of parts of triangles with edges of at most one row; a
+/// pixel that none of them meets, a few in a hundred, is empty. Where
 /// principal moments are equal the axes are arbitrary.
 /// @throws std::invalid_argument  as surface_frame(); an option is out of range.
 /// O(F + area / pixel²). The same for any number of threads and any order and orientation of the

@@ -33,6 +33,7 @@ struct FusionPart {
 /// Distances in the units of their neighbourhoods: D_ij / √(s_i s_j), s_i the mean distance of item
 /// i to its k nearest others. Items in dense parts of a collection then are not the neighbours of
 /// nobody, and items in the middle of it not those of everybody. No labels are needed.
+/// Infinite distances stay so, and are not those of neighbours.
 /// (Zelnik-Manor and Perona 2004, as a distance.)
 /// @param D  n by n, symmetric. @param k  1 … n − 1; a larger one stands for n − 1.
 /// @throws std::invalid_argument  D is not square; k < 1.
