@@ -30,6 +30,6 @@ install(
     ${PROJECT_BINARY_DIR}/package/Shape3DConfigVersion.cmake
   DESTINATION ${SHAPE3D_CONFIG_DIR})
 if("learning" IN_LIST SHAPE3D_BUILT_COMPONENTS)
-  install(FILES cmake/FindLIBSVM.cmake DESTINATION ${SHAPE3D_CONFIG_DIR}/modules)
+  install(FILES cmake/FindHNSWLIB.cmake cmake/FindLIBSVM.cmake DESTINATION ${SHAPE3D_CONFIG_DIR}/modules)
 endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the program, extracts the bone and the skin of a real CT and
-# segments its bone.
+# segments its bone; then makes a library of meshes that Debian distributes, and searches it.
 #   scripts/demo.sh [FOLDER]     the folder receives meshes, pictures and reports; build/demo if none is given
 # SHAPE3D_UPDATE_IMAGES=1 also renews the picture of the README.
 set -euo pipefail
@@ -21,6 +21,7 @@ started=$SECONDS
 
 archive=$(scripts/skull-data.sh)
 scripts/unpack-skull.py "$archive" "$out"
+meshes=$(scripts/demo-meshes.sh)
 read -r bone skin < <(/usr/bin/python3 -c '
 import json, sys
 print(*(part["threshold"] for part in json.load(open(sys.argv[1]))["parts"]))' "$out/skull.json")
@@ -61,6 +62,29 @@ if [[ ${SHAPE3D_UPDATE_IMAGES:-0} == 1 ]]; then
   "$shape3d" render bone.ply --largest -o "$OLDPWD/docs/images/skull.png" --size 420x420
 fi
 
+say "a library of meshes of the package libcgal-demo, by class"
+rm -rf shapes shapes.db
+mkdir shapes
+tar --extract --gzip --file "$meshes" --directory shapes
+put() { # CLASS NAME...: into the folder of the class
+  local class=$1 name
+  shift
+  mkdir -p "shapes/classes/$class"
+  for name in "$@"; do mv "shapes/data/meshes/$name.off" "shapes/classes/$class/"; done
+}
+put animal armadillo bear bear_bis bull camel cow diplodocus dino elephant elk lion-head pig triceratops
+put head head mannequin-devil nefertiti
+put human homer man
+put mechanical anchor anchor_dense couplingdown fandisk handle joint part pinion rotor spool turbine
+put round blobby ellipsoid geosphere oblong sphere sphere966 larger_sphere
+put knot eight knot1 knot2 knot double-torus-example
+put box cube cube-meshed small_cube translated-cube beam cheese-box
+"$shape3d" library add shapes.db shapes/classes --class-from-folder --descriptor hsh:K=8,unit=yes \
+  --descriptor d2 --json library.json
+"$shape3d" search shapes.db shapes/classes/animal/elephant.off --sheet search.png --json search.json
+"$shape3d" distance shapes/classes/animal/bear.off shapes/classes/animal/bear_bis.off --align
+
 say "done in $((SECONDS - started)) s after the build"
 echo "The pictures are $out/skull.png, $out/head.png, $out/segmented.png, $out/slice.svg and those in $out/segmentation;"
 echo "the meshes bone.ply, skin.ply and segmented.ply and the label map bone.nii.gz are beside them."
+echo "$out/search.png shows what the library shapes.db has that is like an elephant."

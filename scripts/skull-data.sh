@@ -9,28 +9,4 @@ set -euo pipefail
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/apt.sh"
 
-inside=usr/share/doc/invesalius-examples/examples/Cranium.inv3
-cache=${XDG_CACHE_HOME:-${HOME:?}/.cache}/shape3d
-for archive in "/$inside" "$cache/invesalius-examples/$inside"; do
-  if [[ -r $archive ]]; then
-    echo "$archive"
-    exit 0
-  fi
-done
-
-mkdir -p "$cache"
-work=$(mktemp -d "$cache/download-XXXXXX")
-trap 'rm -rf "$work"' EXIT
-download() (cd "$work" && apt-get -o APT::Sandbox::User=root download invesalius-examples >&2)
-if ! download; then
-  as_root apt-get update >&2
-  download
-fi
-dpkg-deb --extract "$work"/invesalius-examples_*.deb "$work/unpacked"
-if [[ ! -r $work/unpacked/$inside ]]; then
-  echo "error: $inside is not in the package invesalius-examples" >&2
-  exit 1
-fi
-rm -rf "$cache/invesalius-examples"
-mv "$work/unpacked" "$cache/invesalius-examples"
-echo "$cache/invesalius-examples/$inside"
+documentation_file invesalius-examples usr/share/doc/invesalius-examples/examples/Cranium.inv3

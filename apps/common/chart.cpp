@@ -196,11 +196,14 @@ void add_band(vtkChartXY* view, const Chart& chart, const ChartBand& band) {
   if (table->GetNumberOfRows() > 1) add_area(view, band.label, band.color, band.opacity, table);
 }
 
-void set_axis(vtkAxis* axis, const ChartAxis& wish, const std::array<double, 2>& ends) {
+int scaled(int size, double scale) { return static_cast<int>(std::lround(size * scale)); }
+
+void set_axis(vtkAxis* axis, const ChartAxis& wish, const std::array<double, 2>& ends,
+              double text_scale) {
   axis->SetTitle(wish.title);
-  axis->GetTitleProperties()->SetFontSize(kAxisTitleSize);
+  axis->GetTitleProperties()->SetFontSize(scaled(kAxisTitleSize, text_scale));
   axis->GetTitleProperties()->BoldOff();
-  axis->GetLabelProperties()->SetFontSize(kLabelSize);
+  axis->GetLabelProperties()->SetFontSize(scaled(kLabelSize, text_scale));
   axis->SetLogScale(wish.logarithmic);
   axis->SetBehavior(vtkAxis::FIXED);
   axis->SetUnscaledRange(ends[0], ends[1]);
@@ -218,40 +221,15 @@ void set_axis(vtkAxis* axis, const ChartAxis& wish, const std::array<double, 2>&
   axis->SetCustomTickPositions(places, labels);
 }
 
-void set_legend(vtkChartXY* chart, LegendPlace place) {
+void set_legend(vtkChartXY* chart, LegendPlace place, double text_scale) {
   chart->SetShowLegend(place != LegendPlace::none);
   vtkChartLegend* legend = chart->GetLegend();
   const bool left = place == LegendPlace::top_left || place == LegendPlace::bottom_left;
   const bool top = place == LegendPlace::top_left || place == LegendPlace::top_right;
   legend->SetHorizontalAlignment(left ? vtkChartLegend::LEFT : vtkChartLegend::RIGHT);
   legend->SetVerticalAlignment(top ? vtkChartLegend::TOP : vtkChartLegend::BOTTOM);
-  legend->SetLabelSize(kLegendSize);
+  legend->SetLabelSize(scaled(kLegendSize, text_scale));
   legend->SetPadding(8);
-}
-
-void fill(vtkChartXY* view, const Chart& chart) {
-  const Ends ends = ends_of(chart);
-  for (const ChartBand& band : chart.bands) add_band(view, chart, band);
-  for (const ChartSeries& series : chart.series) {
-    if (series.kind == ChartSeries::Kind::bars) {
-      add_bars(view, chart, series, ends.y[0]);
-    } else {
-      add_line(view, chart, series);
-    }
-  }
-  for (const ChartMarker& marker : chart.markers) {
-    ChartSeries line;
-    line.label = marker.label;
-    line.points = {{marker.x, ends.y[0]}, {marker.x, ends.y[1]}};
-    line.color = marker.color;
-    line.pattern = marker.pattern;
-    add_line(view, chart, line);
-  }
-  view->SetTitle(chart.title);
-  view->GetTitleProperties()->SetFontSize(kTitleSize);
-  set_axis(view->GetAxis(vtkAxis::BOTTOM), chart.x, ends.x);
-  set_axis(view->GetAxis(vtkAxis::LEFT), chart.y, ends.y);
-  set_legend(view, chart.legend);
 }
 
 std::string draw(const std::vector<Chart>& charts, const ChartPage& page) {
@@ -271,7 +249,7 @@ std::string draw(const std::vector<Chart>& charts, const ChartPage& page) {
                             static_cast<float>((rows - 1 - row) * page.height) + kGap,
                             static_cast<float>(page.width) - 2 * kGap,
                             static_cast<float>(page.height) - 2 * kGap));
-    fill(chart, charts[n]);
+    fill_chart(chart, charts[n]);
     view->GetScene()->AddItem(chart);
   }
   view->Render();
@@ -316,6 +294,31 @@ void validate(const std::vector<Chart>& charts, const ChartPage& page) {
 }
 
 }  // namespace
+
+void fill_chart(vtkChartXY* view, const Chart& chart, double text_scale) {
+  const Ends ends = ends_of(chart);
+  for (const ChartBand& band : chart.bands) add_band(view, chart, band);
+  for (const ChartSeries& series : chart.series) {
+    if (series.kind == ChartSeries::Kind::bars) {
+      add_bars(view, chart, series, ends.y[0]);
+    } else {
+      add_line(view, chart, series);
+    }
+  }
+  for (const ChartMarker& marker : chart.markers) {
+    ChartSeries line;
+    line.label = marker.label;
+    line.points = {{marker.x, ends.y[0]}, {marker.x, ends.y[1]}};
+    line.color = marker.color;
+    line.pattern = marker.pattern;
+    add_line(view, chart, line);
+  }
+  view->SetTitle(chart.title);
+  view->GetTitleProperties()->SetFontSize(scaled(kTitleSize, text_scale));
+  set_axis(view->GetAxis(vtkAxis::BOTTOM), chart.x, ends.x, text_scale);
+  set_axis(view->GetAxis(vtkAxis::LEFT), chart.y, ends.y, text_scale);
+  set_legend(view, chart.legend, text_scale);
+}
 
 std::array<double, 2> axis_ends(const ChartAxis& axis, const std::vector<double>& values) {
   if (axis.range) return *axis.range;

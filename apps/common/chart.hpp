@@ -8,6 +8,8 @@
 
 #include "picture.hpp"
 
+class vtkChartXY;
+
 namespace shape3d::apps {
 
 /// Numbers drawn in a chart. Points that are not finite are left out, and those that are not
@@ -81,6 +83,10 @@ struct ChartPage {
 /// when the ends are less than a factor of 1000 apart.
 [[nodiscard]] std::vector<std::pair<double, std::string>> logarithmic_ticks(double lower,
                                                                             double upper);
+
+/// Puts a chart into one of VTK that has nothing in it yet, for windows that are open.
+/// @param text_scale  Of the sizes of letters; draw_charts() has 1.
+void fill_chart(vtkChartXY* view, const Chart& chart, double text_scale = 1.0);
 
 /// Draws charts with VTK in a child process, as draw_png() does.
 /// @return PNG bytes.

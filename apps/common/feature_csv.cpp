@@ -11,6 +11,7 @@ namespace shape3d::apps::formats {
 namespace {
 
 constexpr std::string_view kHead = "# shape3d describe, version 1";
+constexpr std::string_view kWithClass = "file,size,mtime,class,";
 constexpr std::string_view kSpec = "# descriptor ";
 constexpr std::string_view kFailed = "# failed: ";
 
@@ -71,6 +72,13 @@ class CsvScanner {
     return text;
   }
 
+  /// The same of a field that is not the first.
+  std::string next_text_field() {
+    if (rest_.empty() || rest_.front() != ',') fail("fewer fields than columns");
+    rest_.remove_prefix(1);
+    return text_field();
+  }
+
   template <class Number>
   Number number_field() {
     if (rest_.empty() || rest_.front() != ',') fail("fewer numbers than columns");
@@ -114,6 +122,7 @@ void write_csv(OutputFile& file, const FeatureTable& table) {
     file.write(std::string(kFailed) + one_line(path + ": " + reason) + "\n");
   }
   file.write("file,size,mtime");
+  if (!table.classes.empty()) file.write(",class");
   for (std::size_t s = 0; s < table.sets.size(); ++s) {
     for (Eigen::Index i = 0; i < table.sets[s].vectors.cols(); ++i) {
       file.write("," + names[s] + "_" + std::to_string(i));
@@ -126,6 +135,7 @@ void write_csv(OutputFile& file, const FeatureTable& table) {
     file.write_number(table.files[row].size);
     file.write_char(',');
     file.write_number(table.files[row].time);
+    if (!table.classes.empty()) file.write("," + quoted(table.classes[row]));
     for (const FeatureSet& set : table.sets) {
       for (Eigen::Index i = 0; i < set.vectors.cols(); ++i) {
         file.write_char(',');
@@ -168,6 +178,8 @@ FeatureTable parse_csv(std::string_view bytes, const std::string& path) {
   }
   if (table.sets.empty()) scanner.fail("no line says which descriptor the columns are of");
   const std::string_view names = scanner.line();
+  const bool classes = names.substr(0, kWithClass.size()) == kWithClass;
+  if (classes) ++columns;
   if (std::count(names.begin(), names.end(), ',') != columns + 2) {
     scanner.fail("expected " + std::to_string(columns + 3) + " columns");
   }
@@ -178,6 +190,7 @@ FeatureTable parse_csv(std::string_view bytes, const std::string& path) {
     file.size = scanner.number_field<std::uint64_t>();
     file.time = scanner.number_field<std::int64_t>();
     table.files.push_back(file);
+    if (classes) table.classes.push_back(scanner.next_text_field());
     for (std::size_t s = 0; s < numbers.size(); ++s) {
       for (std::int64_t i = 0; i < lengths[s]; ++i) {
         numbers[s].push_back(scanner.number_field<double>());

@@ -113,6 +113,8 @@ class Reader {
     return set;
   }
 
+  [[nodiscard]] bool has(const char* name) const { return H5Lexists(file_, name, H5P_DEFAULT) > 0; }
+
   std::vector<hsize_t> sizes_of(hid_t set, const std::string& name, int expected) const {
     const Handle space(H5Dget_space(set), H5Sclose);
     if (H5Sget_simple_extent_ndims(space) != expected) {
@@ -232,6 +234,7 @@ void write_h5(OutputFile& file, const FeatureTable& table) {
   writer.texts("/file", paths);
   writer.dataset("/size", H5T_STD_U64LE, H5T_NATIVE_UINT64, {sizes.size()}, sizes.data());
   writer.dataset("/mtime", H5T_STD_I64LE, H5T_NATIVE_INT64, {times.size()}, times.data());
+  if (!table.classes.empty()) writer.texts("/class", table.classes);
 
   writer.group("/vectors");
   const std::vector<std::string> names = feature_names(table);
@@ -274,6 +277,10 @@ FeatureTable read_h5(const std::string& path) {
   }
   for (std::size_t i = 0; i < paths.size(); ++i) {
     table.files.push_back({paths[i], sizes[i], times[i]});
+  }
+  if (reader.has("/class")) {
+    table.classes = reader.texts("/class");
+    if (table.classes.size() != paths.size()) reader.fail("/file and /class differ in length");
   }
   const std::vector<std::string> names = reader.names("/vectors");
   if (names.empty()) reader.fail("there are no vectors");

@@ -62,6 +62,21 @@ void append_utf8(std::string& text, std::uint32_t point) {
   }
 }
 
+// Texts of one length, the longest.
+struct TextColumn {
+  std::vector<std::vector<std::uint32_t>> texts;
+  std::size_t longest = 1;
+
+  void add(const std::string& text) {
+    texts.push_back(code_points(text));
+    longest = std::max(longest, texts.back().size());
+  }
+  void write(OutputFile& file, std::size_t row) {
+    texts[row].resize(longest, 0);
+    file.write(texts[row].data(), longest * sizeof(std::uint32_t));
+  }
+};
+
 // The words of the header: quoted texts and numbers.
 std::vector<std::string_view> words_of(std::string_view header) {
   std::vector<std::string_view> words;
@@ -87,6 +102,15 @@ Number number_at(const char* bytes) {
   return number;
 }
 
+std::string take_text(const char*& at, std::uint64_t characters) {
+  std::string text;
+  for (std::uint64_t i = 0; i < characters; ++i, at += 4) {
+    const auto point = number_at<std::uint32_t>(at);
+    if (point != 0) append_utf8(text, point);
+  }
+  return text;
+}
+
 [[noreturn]] void refuse(const std::string& path) {
   throw FileError(
       path,
@@ -97,14 +121,14 @@ Number number_at(const char* bytes) {
 }  // namespace
 
 void write_npy(OutputFile& file, const FeatureTable& table) {
-  std::vector<std::vector<std::uint32_t>> names;
-  std::size_t longest = 1;
-  for (const FeatureFile& entry : table.files) {
-    names.push_back(code_points(entry.path));
-    longest = std::max(longest, names.back().size());
+  TextColumn names, classes;
+  for (const FeatureFile& entry : table.files) names.add(entry.path);
+  for (const std::string& name : table.classes) classes.add(name);
+  std::string header = "{'descr': [('file', '<U" + std::to_string(names.longest) +
+                       "'), ('size', '<u8'), ('mtime', '<i8')";
+  if (!table.classes.empty()) {
+    header += ", ('class', '<U" + std::to_string(classes.longest) + "')";
   }
-  std::string header =
-      "{'descr': [('file', '<U" + std::to_string(longest) + "'), ('size', '<u8'), ('mtime', '<i8')";
   for (const FeatureSet& set : table.sets) {
     header += ", ('" + set.spec + "', '<f8', (" + std::to_string(set.vectors.cols()) + ",))";
   }
@@ -122,10 +146,10 @@ void write_npy(OutputFile& file, const FeatureTable& table) {
   }
   file.write(header);
   for (std::size_t row = 0; row < table.files.size(); ++row) {
-    names[row].resize(longest, 0);
-    file.write(names[row].data(), longest * sizeof(std::uint32_t));
+    names.write(file, row);
     file.write_binary(table.files[row].size);
     file.write_binary(table.files[row].time);
+    if (!table.classes.empty()) classes.write(file, row);
     for (const FeatureSet& set : table.sets) {
       file.write(set.vectors.data() + static_cast<std::ptrdiff_t>(row) * set.vectors.cols(),
                  static_cast<std::size_t>(set.vectors.cols()) * sizeof(double));
@@ -150,16 +174,24 @@ FeatureTable parse_npy(std::string_view bytes, const std::string& path) {
       words[5] != "mtime" || words[6] != "<i8") {
     refuse(path);
   }
+  // After mtime there may be class <Un.
+  std::optional<std::uint64_t> class_characters;
+  std::size_t first = 7;
+  if (words[7] == "class" && words[8].substr(0, 2) == "<U") {
+    class_characters = parse_unsigned(words[8].substr(2));
+    if (!class_characters || *class_characters > 1u << 20) refuse(path);
+    first = 9;
+  }
   const std::size_t end = words.size() - 3;
   const auto characters = parse_unsigned(words[2].substr(2)), rows = parse_unsigned(words.back());
-  if (words[end] != "fortran_order" || words[end + 1] != "shape" || (end - 7) % 3 != 0 ||
-      !characters || !rows || *characters > 1u << 20) {
+  if (words[end] != "fortran_order" || words[end + 1] != "shape" || end < first ||
+      (end - first) % 3 != 0 || !characters || !rows || *characters > 1u << 20) {
     refuse(path);
   }
   FeatureTable table;
   std::vector<std::uint64_t> lengths;
-  std::uint64_t stride = 4 * *characters + 16;
-  for (std::size_t i = 7; i < end; i += 3) {
+  std::uint64_t stride = 4 * *characters + 16 + 4 * class_characters.value_or(0);
+  for (std::size_t i = first; i < end; i += 3) {
     const auto numbers = parse_unsigned(words[i + 2]);
     if (words[i + 1] != "<f8" || !numbers || *numbers == 0 || *numbers > 1u << 24) refuse(path);
     table.sets.push_back({std::string(words[i]), {}});
@@ -177,14 +209,12 @@ FeatureTable parse_npy(std::string_view bytes, const std::string& path) {
   const char* at = bytes.data();
   for (std::uint64_t row = 0; row < *rows; ++row) {
     FeatureFile entry;
-    for (std::uint64_t i = 0; i < *characters; ++i, at += 4) {
-      const auto point = number_at<std::uint32_t>(at);
-      if (point != 0) append_utf8(entry.path, point);
-    }
+    entry.path = take_text(at, *characters);
     entry.size = number_at<std::uint64_t>(at);
     entry.time = number_at<std::int64_t>(at + 8);
     at += 16;
     table.files.push_back(entry);
+    if (class_characters) table.classes.push_back(take_text(at, *class_characters));
     for (std::size_t s = 0; s < lengths.size(); ++s) {
       const std::size_t size = static_cast<std::size_t>(lengths[s]) * sizeof(double);
       std::memcpy(table.sets[s].vectors.row(static_cast<Eigen::Index>(row)).data(), at, size);

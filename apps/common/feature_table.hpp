@@ -35,7 +35,8 @@ struct FeatureFile {
 /// Feature vectors of files, by one or several descriptors.
 struct FeatureTable {
   std::vector<FeatureFile> files;
-  std::vector<FeatureSet> sets;                             ///< At least one, no two specs equal.
+  std::vector<std::string> classes = {};  ///< Of the files, "" where unknown; or none.
+  std::vector<FeatureSet> sets;           ///< At least one, no two specs equal.
   std::vector<std::pair<std::string, std::string>> failed;  ///< Files without vectors, and why.
 };
 
@@ -49,6 +50,8 @@ inline constexpr std::string_view kFeatureExtensions = ".csv, .npy or .h5";
 [[nodiscard]] std::vector<std::string> feature_names(const FeatureTable& table);
 
 /// Writes a table; does not commit the file. Numbers are exact in all formats.
+///
+/// Classes, when there are some, stand after mtime under the name `class`.
 ///
 /// csv: lines of comment with the specs, one line of column names (file, size, mtime, hsh_0 …), a
 /// line for each file. npy: one structured array with the fields file, size, mtime, and for each

@@ -10,12 +10,9 @@
 #include <vtkSMPTools.h>
 #include <vtkWindowToImageFilter.h>
 
-#include "child_process.hpp"
 #include "private_display.hpp"
 
 namespace shape3d::apps {
-namespace {
-
 ChildResult draw_on(const std::string& display, const std::function<std::string()>& draw) {
   return run_in_child([&] {
     setenv("DISPLAY", display.c_str(), 1);
@@ -24,8 +21,6 @@ ChildResult draw_on(const std::string& display, const std::function<std::string(
     return draw();
   });
 }
-
-}  // namespace
 
 std::string draw_offscreen(const std::function<std::string()>& draw, bool private_display) {
   if (const char* display = std::getenv("DISPLAY");

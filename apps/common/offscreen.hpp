@@ -3,6 +3,8 @@
 #include <functional>
 #include <string>
 
+#include "child_process.hpp"
+#include "private_display.hpp"
 #include "raster.hpp"
 
 class vtkRenderWindow;
@@ -19,6 +21,10 @@ namespace shape3d::apps {
 /// @throws PictureError  no display works, or `draw` threw.
 [[nodiscard]] std::string draw_offscreen(const std::function<std::string()>& draw,
                                          bool private_display = false);
+
+/// The same on the display of this name, once.
+[[nodiscard]] ChildResult draw_on(const std::string& display,
+                                  const std::function<std::string()>& draw);
 
 /// The pixels of a rendered window.
 /// @param samples  A pixel of the result is the mean of samples × samples pixels of the window,

@@ -198,14 +198,34 @@ std::optional<View> view_named(std::string_view name) {
   return std::nullopt;
 }
 
-Raster render_scene(const std::vector<SceneMesh>& meshes, View view, int width, int height,
-                    const Color& background) {
+struct SceneRenderer::State {
+  vtkNew<vtkRenderWindow> window;
+  int width = 0, height = 0;
+  Color background;
+};
+
+SceneRenderer::SceneRenderer(int width, int height, const Color& background)
+    : state_(std::make_unique<State>()) {
+  state_->width = width;
+  state_->height = height;
+  state_->background = background;
+  vtkRenderWindow* window = state_->window;
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->SetAlphaBitPlanes(1);
+  window->SetSize(kSamples * width, kSamples * height);
+}
+
+SceneRenderer::~SceneRenderer() = default;
+
+Raster SceneRenderer::render(const std::vector<SceneMesh>& meshes, View view) {
   vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(background[0], background[1], background[2]);
-  bool opaque = true, shaded = true;
+  renderer->SetBackground(state_->background[0], state_->background[1], state_->background[2]);
+  bool opaque = true, shaded = true, empty = true;
   for (const SceneMesh& item : meshes) {
     if (item.mesh.triangle_count == 0) continue;
     renderer->AddActor(make_actor(item));
+    empty = false;
     opaque = opaque && item.opacity >= 1.0;
     shaded = shaded && item.shading >= 1.0;
   }
@@ -218,14 +238,10 @@ Raster render_scene(const std::vector<SceneMesh>& meshes, View view, int width, 
   lights->SetKeyToHeadRatio(3.5);
   lights->SetKeyLightAngle(46.0, -30.0);
   lights->AddLightsToRenderer(renderer);
-  vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(0);
-  window->SetAlphaBitPlanes(1);
-  window->SetSize(kSamples * width, kSamples * height);
+  vtkRenderWindow* window = state_->window;
   window->AddRenderer(renderer);
-  place_camera(renderer, view, static_cast<double>(width) / height);
-  if (opaque && shaded) {
+  if (!empty) place_camera(renderer, view, static_cast<double>(state_->width) / state_->height);
+  if (opaque && shaded && !empty) {
     double bounds[6];
     renderer->ComputeVisiblePropBounds(bounds);
     const double diagonal =
@@ -244,7 +260,14 @@ Raster render_scene(const std::vector<SceneMesh>& meshes, View view, int width, 
     renderer->SetOcclusionRatio(0.0);
   }
   window->Render();
-  return raster_of(window, kSamples);
+  Raster raster = raster_of(window, kSamples);
+  window->RemoveRenderer(renderer);
+  return raster;
+}
+
+Raster render_scene(const std::vector<SceneMesh>& meshes, View view, int width, int height,
+                    const Color& background) {
+  return SceneRenderer(width, height, background).render(meshes, view);
 }
 
 }  // namespace shape3d::apps

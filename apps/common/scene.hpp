@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -40,5 +41,22 @@ struct SceneMesh {
 /// @pre  At least one mesh has a triangle.
 [[nodiscard]] Raster render_scene(const std::vector<SceneMesh>& meshes, View view, int width,
                                   int height, const Color& background);
+
+/// Draws one picture after another in one window, which takes less time than a window for each.
+/// For use within draw_offscreen().
+class SceneRenderer {
+ public:
+  SceneRenderer(int width, int height, const Color& background);
+  ~SceneRenderer();
+  SceneRenderer(const SceneRenderer&) = delete;
+  SceneRenderer& operator=(const SceneRenderer&) = delete;
+
+  /// As render_scene(); without any triangle, the background.
+  [[nodiscard]] Raster render(const std::vector<SceneMesh>& meshes, View view);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace shape3d::apps

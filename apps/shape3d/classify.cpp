@@ -8,10 +8,10 @@
 #include <shape3d/learning/som_maps.hpp>
 #include <shape3d/learning/svm.hpp>
 
+#include "common/describe_mesh.hpp"
 #include "common/error.hpp"
 #include "common/feature_table.hpp"
 #include "common/mesh_io.hpp"
-#include "describe_mesh.hpp"
 #include "learning_commands.hpp"
 #include "model_io.hpp"
 #include "progress.hpp"

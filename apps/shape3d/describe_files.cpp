@@ -16,13 +16,14 @@
 #include <shape3d/descriptors/descriptor.hpp>
 
 #include "common/byte_source.hpp"
+#include "common/describe_mesh.hpp"
 #include "common/error.hpp"
 #include "common/feature_table.hpp"
 #include "common/mesh_io.hpp"
 #include "common/text.hpp"
 #include "describe_arguments.hpp"
 #include "describe_journal.hpp"
-#include "describe_mesh.hpp"
+#include "descriptor_arguments.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 
@@ -37,23 +38,6 @@ struct Job {
   bool kept = false;   // from an earlier run
   std::string reason;  // why there are no vectors; empty: there are
 };
-
-std::vector<Descriptor> parse_descriptors(const std::vector<std::string>& specs) {
-  if (specs.empty()) throw UsageError("--descriptor is required");
-  std::vector<Descriptor> result;
-  std::set<std::string> seen;
-  for (const std::string& spec : specs) {
-    try {
-      result.push_back(Descriptor::parse(spec));
-    } catch (const std::invalid_argument& error) {
-      throw UsageError("--descriptor " + spec + ": " + error.what());
-    }
-    if (!seen.insert(result.back().to_string()).second) {
-      throw UsageError("--descriptor " + spec + " is given twice");
-    }
-  }
-  return result;
-}
 
 // The meshes of the command line, then those of the list; each once.
 std::vector<std::string> mesh_paths(const DescribeArguments& arguments, const Settings& settings) {
@@ -233,6 +217,7 @@ FeatureTable table_of(const std::vector<Job>& jobs, const std::vector<std::strin
 }  // namespace
 
 DescribeOutcome describe_to_table(const DescribeArguments& arguments, const Settings& settings) {
+  if (arguments.descriptors.empty()) throw UsageError("--descriptor is required");
   const std::vector<Descriptor> descriptors = parse_descriptors(arguments.descriptors);
   if (arguments.output.empty()) throw UsageError("--output is required");
   const std::optional<FeatureFormat> format = feature_format(arguments.output);

@@ -6,10 +6,10 @@
 
 #include <shape3d/descriptors/descriptor.hpp>
 
+#include "common/describe_mesh.hpp"
 #include "common/mesh_io.hpp"
 #include "common/output_file.hpp"
 #include "describe_arguments.hpp"
-#include "describe_mesh.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 #include "show_parts.hpp"

@@ -89,6 +89,8 @@ int run_program(int argc, char** argv) {
       "  shape3d check bone.ply\n"
       "  shape3d render bone.ply -o bone.png\n"
       "  shape3d map spot.off -o sphere.off         a sphere that keeps angles\n"
+      "  shape3d library add shapes.db meshes/      a library of shapes to search\n"
+      "  shape3d search shapes.db query.off --sheet found.png\n"
       "'shape3d COMMAND --help' explains a command.");
   add_info(app, settings);
   add_extract(app, settings);
@@ -104,6 +106,9 @@ int run_program(int argc, char** argv) {
   add_wrap(app, settings);
   add_segment(app, settings);
   add_evaluate(app, settings);
+  add_library(app, settings);
+  add_search(app, settings);
+  add_distance(app, settings);
   add_train(app, settings);
   add_classify(app, settings);
   add_map_collection(app, settings);

@@ -34,6 +34,9 @@ void add_render(CLI::App& app, Settings& settings);
 void add_compare(CLI::App& app, Settings& settings);
 void add_describe(CLI::App& app, Settings& settings);
 void add_segment(CLI::App& app, Settings& settings);
+void add_library(CLI::App& app, Settings& settings);
+void add_search(CLI::App& app, Settings& settings);
+void add_distance(CLI::App& app, Settings& settings);
 
 /// Prints "shape3d: warning: SENTENCE" on standard error unless settings.quiet.
 void warn(const Settings& settings, const std::string& sentence);

@@ -150,9 +150,8 @@ void add_evolution_options(CLI::App& command, SegmentArguments& arguments) {
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
   command
-      .add_option(
-          "--tolerance", options.evolution.tolerance,
-          "Stop when the front moves less than this share of its full speed (default 0.01)")
+      .add_option("--tolerance", options.evolution.tolerance,
+                  "Stop when the front moves less than this share of its full speed (default 0.01)")
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("X");
 }

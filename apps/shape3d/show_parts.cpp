@@ -17,9 +17,9 @@
 #include <shape3d/zmc/extract.hpp>
 
 #include "common/color_map.hpp"
+#include "common/describe_mesh.hpp"
 #include "common/raster.hpp"
 #include "common/text.hpp"
-#include "describe_mesh.hpp"
 
 namespace shape3d::apps {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "common/feature_table.hpp"
+#include "common/shape_library.hpp"
 #include "common/text.hpp"
 
 namespace shape3d::apps {
@@ -70,6 +71,32 @@ TrainingSet of_table(const TrainingSource& source) {
   return set;
 }
 
+TrainingSet of_library(const TrainingSource& source) {
+  if (source.class_from_folder) {
+    throw UsageError(
+        "--class-from-folder: not used with a library, which knows the classes: "
+        "'shape3d library add --class-from-folder' sets them");
+  }
+  const ShapeLibrary library(source.path, ShapeLibrary::Access::read);
+  LibraryDescriptor descriptor;
+  try {
+    descriptor = library.descriptor(source.descriptor);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError("--descriptor " + source.descriptor + ": " + error.what());
+  }
+  LibraryVectors vectors = library.vectors(descriptor.spec);
+  TrainingSet set;
+  set.source = source.path;
+  set.spec = vectors.spec;
+  set.vectors = std::move(vectors.vectors);
+  set.class_names = vectors.classes;
+  set.labels.assign(vectors.labels.begin(), vectors.labels.end());
+  std::map<std::int64_t, std::string> paths;
+  for (const LibraryModel& model : library.models()) paths.emplace(model.id, model.file.path);
+  for (const std::int64_t id : vectors.ids) set.files.push_back(paths[id]);
+  return set;
+}
+
 // Classes of a library that have no model among the vectors.
 void drop_empty_classes(TrainingSet& set) {
   const std::vector<int> sizes = class_sizes(set);
@@ -89,11 +116,12 @@ void drop_empty_classes(TrainingSet& set) {
 }  // namespace
 
 TrainingSet read_training_set(const TrainingSource& source) {
-  if (!feature_format(source.path)) {
+  const bool library = lower_case(fs::path(source.path).extension().string()) == ".db";
+  if (!library && !feature_format(source.path)) {
     throw UsageError(source.path + ": expected a library (.db) or a table of vectors (" +
                      std::string(kFeatureExtensions) + ")");
   }
-  TrainingSet set = of_table(source);
+  TrainingSet set = library ? of_library(source) : of_table(source);
   if (set.vectors.rows() == 0) throw FileError(source.path, "has no vectors of " + set.spec);
   drop_empty_classes(set);
   return set;

@@ -16,7 +16,7 @@ namespace shape3d::apps::viewer {
 namespace {
 
 std::string renderer_name() {
-  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  set_surface_format();
   int argc = 1;
   char name[] = "shape3d-viewer";
   char* argv[] = {name, nullptr};
@@ -35,6 +35,12 @@ std::string renderer_name() {
 }
 
 }  // namespace
+
+void set_surface_format() {
+  QSurfaceFormat format = QVTKOpenGLNativeWidget::defaultFormat();
+  format.setSamples(0);
+  QSurfaceFormat::setDefaultFormat(format);
+}
 
 std::string require_display() {
   const char* x11 = std::getenv("DISPLAY");

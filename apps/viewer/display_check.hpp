@@ -4,6 +4,10 @@
 
 namespace shape3d::apps::viewer {
 
+/// What windows are made with: VTK's format without samples, for VTK smooths edges itself and a
+/// software renderer pays for each sample. Call before QApplication is made.
+void set_surface_format();
+
 /// Tries in a child process whether windows of Qt with OpenGL 3.2 can be made on the display of the
 /// environment, where a failure would end the process. Call before anything of Qt, with no other
 /// thread running.

@@ -28,6 +28,8 @@ FileKind kind_of(const std::string& path) {
 }
 
 std::shared_ptr<const OpenVolume> read_open_volume(const std::string& path) {
+  static std::mutex one_at_a_time;  // as VTK's readers need
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
   auto open = std::make_shared<OpenVolume>();
   open->path = std::filesystem::absolute(path).lexically_normal().string();
   open->volume = read_volume(path);

@@ -189,11 +189,6 @@ void FourUp::update_plane(int axis) {
   const SliceWidget* slice = slices_[index(axis)];
   const bool visible = planes_visible_ && volume && slice->geometry() && !slice->image().isNull();
   plane.actor->SetVisibility(visible);
-  if (!active_) {
-    planes_old_ = true;
-    if (visible) plane.set(*slice, volume->volume.view);
-    return;
-  }
   if (visible) plane.set(*slice, volume->volume.view);
   scene_->redraw();
 }
@@ -229,11 +224,8 @@ void FourUp::set_theme(const Theme& theme) {
 }
 
 void FourUp::set_active(bool active) {
-  active_ = active;
-  if (active && planes_old_) {
-    planes_old_ = false;
-    scene_->redraw();
-  }
+  for (SliceWidget* slice : slices_) slice->set_live(active);
+  if (active) scene_->redraw();
 }
 
 void FourUp::show_only(QWidget* widget) {

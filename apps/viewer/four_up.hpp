@@ -43,7 +43,7 @@ class FourUp : public QWidget {
   void set_planes_visible(bool visible);
   [[nodiscard]] bool planes_visible() const { return planes_visible_; }
   void set_theme(const Theme& theme);
-  /// While hidden, the scene's slices are not kept up to date.
+  /// While off, pictures are not kept up to date: the view is not in front.
   void set_active(bool active);
   /// Zoom, places and camera as at the start.
   void reset();
@@ -73,7 +73,7 @@ class FourUp : public QWidget {
   std::unique_ptr<Frame> frame_;
   QWidget* alone_ = nullptr;
   std::optional<Eigen::Vector3d> mouse_;
-  bool planes_visible_ = true, active_ = false, planes_old_ = true;
+  bool planes_visible_ = true;
 };
 
 }  // namespace shape3d::apps::viewer

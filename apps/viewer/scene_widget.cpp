@@ -12,18 +12,21 @@
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkCaptionActor2D.h>
+#include <vtkCellData.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkLightKit.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOrientationMarkerWidget.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
 #include <vtkTextProperty.h>
+#include <vtkUnsignedCharArray.h>
 #include <QEvent>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -86,12 +89,22 @@ void SceneSurface::set_geometry(vtkPolyData* full, vtkPolyData* coarse) {
   set_coarse(is_coarse_);
 }
 
-void SceneSurface::show_scalars(bool on) {
-  for (vtkPolyDataMapper* mapper : {full_.Get(), coarse_.Get()}) {
-    mapper->SetScalarVisibility(on);
-    mapper->SetColorModeToDirectScalars();
+void SceneSurface::set_colors(vtkUnsignedCharArray* colors, bool of_triangles) {
+  vtkPolyData* data = full_->GetInput();
+  if (data == nullptr) return;
+  data->GetCellData()->SetScalars(of_triangles ? colors : nullptr);
+  data->GetPointData()->SetScalars(of_triangles ? nullptr : colors);
+  if (of_triangles) {
+    full_->SetScalarModeToUseCellData();
+  } else {
+    full_->SetScalarModeToUsePointData();
   }
+  full_->SetColorModeToDirectScalars();
+  full_->SetScalarVisibility(true);
+  data->Modified();
 }
+
+void SceneSurface::set_visible(bool visible) { actor_->SetVisibility(visible); }
 
 void SceneSurface::set_coarse(bool coarse) {
   is_coarse_ = coarse;
@@ -201,13 +214,14 @@ void SceneWidget::redraw() {
   waiting_ = true;
   QTimer::singleShot(0, this, [this] {
     waiting_ = false;
-    if (isVisible()) window_->Render();
+    if (isVisible()) static_cast<void>(draw_now());
   });
 }
 
 double SceneWidget::draw_now() {
   const auto start = std::chrono::steady_clock::now();
   window_->Render();
+  ++frames_;
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -230,7 +244,7 @@ void SceneWidget::look(LookFrom from) {
   eye->SetViewUp(place.up.data());
   eye->SetViewAngle(30.0);
   renderer_->ResetCamera();
-  eye->Dolly(1.25);  // ResetCamera() leaves room for the ball round the bounds
+  eye->Dolly(1.12);  // ResetCamera() leaves room for the ball round the bounds
   renderer_->ResetCameraClippingRange();
   redraw();
 }
@@ -264,7 +278,7 @@ void SceneWidget::set_interacting(bool interacting) {
   for (const auto& entry : surfaces_) {
     if (const auto surface = entry.lock()) surface->set_coarse(interacting);
   }
-  if (!interacting) redraw();
+  renderer_->SetUseFXAA(!interacting);
 }
 
 bool SceneWidget::eventFilter(QObject* object, QEvent* event) {

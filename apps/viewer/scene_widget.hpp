@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -16,6 +17,7 @@ class vtkPolyDataMapper;
 class vtkProp;
 class vtkProperty;
 class vtkRenderer;
+class vtkUnsignedCharArray;
 
 namespace shape3d::apps::viewer {
 
@@ -29,8 +31,9 @@ class SceneSurface {
 
   /// @param coarse  Null: the surface itself is drawn while turning, too.
   void set_geometry(vtkPolyData* full, vtkPolyData* coarse);
-  /// Colours of vertices or triangles (an array of three bytes each) are shown when data has them.
-  void show_scalars(bool on);
+  /// Colours, an array of three bytes, of the vertices or triangles of the full surface.
+  void set_colors(vtkUnsignedCharArray* colors, bool of_triangles);
+  void set_visible(bool visible);
   [[nodiscard]] vtkActor* actor() const;
   [[nodiscard]] vtkProperty* property() const;
   void set_coarse(bool coarse);
@@ -64,6 +67,8 @@ class SceneWidget : public QWidget {
 
   /// Draws once, when the program next waits for events.
   void redraw();
+  /// Pictures that redraw() and draw_now() have made.
+  [[nodiscard]] std::int64_t frames() const { return frames_; }
   /// Draws now. @return seconds.
   double draw_now();
   /// Fits all that is there into the picture.
@@ -92,6 +97,7 @@ class SceneWidget : public QWidget {
   std::unique_ptr<Parts> parts_;
   std::vector<std::weak_ptr<SceneSurface>> surfaces_;
   bool interacting_ = false, waiting_ = false;
+  std::int64_t frames_ = 0;
 };
 
 /// The camera as numbers: position, focus, view up, angle, and back; for sessions.

@@ -40,6 +40,8 @@ std::int64_t SliceWidget::slice() const {
 
 void SliceWidget::update_image() {
   const auto volume = document_.volume();
+  image_old_ = volume && geometry_ && !live_;
+  if (image_old_) return;
   if (!volume || !geometry_) {
     image_ = {};
   } else {
@@ -75,6 +77,11 @@ void SliceWidget::set_box(const std::optional<VoxelBox>& box) {
 void SliceWidget::set_box_tool(bool on) {
   box_tool_ = on;
   setCursor(on ? Qt::CrossCursor : Qt::ArrowCursor);
+}
+
+void SliceWidget::set_live(bool live) {
+  live_ = live;
+  if (live_ && image_old_) update_image();
 }
 
 void SliceWidget::set_theme(const Theme& theme) {
@@ -169,7 +176,7 @@ void SliceWidget::paint_box(QPainter& painter) {
   QPen pen(QColor(255, 200, 60), through ? 2.0 : 1.0);
   if (!through) pen.setStyle(Qt::DashLine);
   painter.setPen(pen);
-  painter.setBrush(through ? QColor(255, 200, 60, 24) : QColor(0, 0, 0, 0));
+  painter.setBrush(through ? QColor(255, 200, 60, 10) : QColor(0, 0, 0, 0));
   painter.drawRect(QRectF(pixel_of(lower), pixel_of(upper)).normalized());
   painter.setBrush(Qt::NoBrush);
 }

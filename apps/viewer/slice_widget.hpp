@@ -55,6 +55,8 @@ class SliceWidget : public QWidget {
   void set_box(const std::optional<VoxelBox>& box);
   void set_box_tool(bool on);
   void set_theme(const Theme& theme);
+  /// While off, as at first, the picture is not kept up to date: the view is not in front.
+  void set_live(bool live);
 
   [[nodiscard]] int axis() const { return axis_; }
   [[nodiscard]] std::int64_t slice() const;
@@ -110,7 +112,7 @@ class SliceWidget : public QWidget {
   QImage image_;
   OutlineMaker outline_maker_;
   std::vector<Outline> outlines_;
-  bool outlines_old_ = true;
+  bool outlines_old_ = true, live_ = false, image_old_ = false;
   std::optional<VoxelBox> box_;
   bool box_tool_ = false;
   std::array<int, 2>

@@ -97,8 +97,11 @@ void SurfaceView::make_panel() {
   connect(remove_, &QPushButton::clicked, this, &SurfaceView::remove_selected);
   connect(color_, &QPushButton::clicked, this, &SurfaceView::choose_color);
   connect(slider_, &QSlider::valueChanged, this, &SurfaceView::slider_moved);
+  connect(slider_, &QSlider::sliderPressed, this,
+          [this] { four_up_->scene()->set_interacting(true); });
   connect(slider_, &QSlider::sliderReleased, this, [this] {
     settle_->stop();
+    four_up_->scene()->set_interacting(false);
     if (Item* item = selected()) request(*item, false);
     emit edited();
   });
@@ -273,6 +276,14 @@ std::int64_t SurfaceView::triangles() const {
   return item == nullptr ? 0 : item->shown.triangles;
 }
 
+double SurfaceView::surface_megabytes() const {
+  double kibibytes = 0.0;
+  for (const auto& item : items_) {
+    if (item->shown.data) kibibytes += static_cast<double>(item->shown.data->GetActualMemorySize());
+  }
+  return kibibytes / 1024.0;
+}
+
 IsoWish SurfaceView::wish_of(const Item& item) const {
   IsoWish wish;
   wish.isovalue = item.isovalue;
@@ -284,6 +295,10 @@ IsoWish SurfaceView::wish_of(const Item& item) const {
 
 void SurfaceView::request(Item& item, bool coarse) {
   if (!worker_ || item.mesh) return;
+  if (!active_) {  // made when the view comes to the front
+    waiting_ = true;
+    return;
+  }
   if (coarse) {
     worker_->request_coarse(item.id, wish_of(item));
   } else {
@@ -328,7 +343,9 @@ void SurfaceView::take(IsoResult result) {
   emit busy_changed();
 }
 
-bool SurfaceView::busy() const { return (worker_ && worker_->busy()) || settle_->isActive(); }
+bool SurfaceView::busy() const {
+  return (worker_ && worker_->busy()) || settle_->isActive() || (active_ && waiting_);
+}
 
 double SurfaceView::slider_value() const {
   if (!volume_) return 0.0;
@@ -612,6 +629,13 @@ std::vector<KeyHelp> SurfaceView::keys() const {
 
 void SurfaceView::set_theme(const Theme& theme) { four_up_->set_theme(theme); }
 
-void SurfaceView::set_active(bool active) { four_up_->set_active(active); }
+void SurfaceView::set_active(bool active) {
+  active_ = active;
+  four_up_->set_active(active);
+  if (active_ && waiting_) {
+    waiting_ = false;
+    request_all();
+  }
+}
 
 }  // namespace shape3d::apps::viewer

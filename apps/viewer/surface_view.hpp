@@ -58,6 +58,8 @@ class SurfaceView : public View {
   [[nodiscard]] double isovalue() const;
   /// Of the surface that is selected, as it is drawn.
   [[nodiscard]] std::int64_t triangles() const;
+  /// Of all surfaces, MiB.
+  [[nodiscard]] double surface_megabytes() const;
 
  private:
   struct Item;
@@ -102,7 +104,7 @@ class SurfaceView : public View {
   std::shared_ptr<const OpenVolume> volume_;
   std::vector<std::unique_ptr<Item>> items_;
   int next_id_ = 0, next_color_ = 0;
-  bool ready_to_look_ = false;
+  bool ready_to_look_ = false, active_ = false, waiting_ = false;
   std::int64_t coarse_updates_ = 0, full_updates_ = 0;
   std::unique_ptr<IsoWorker> worker_;
 };

@@ -11,13 +11,12 @@
 #include <thread>
 #include <vector>
 
-#include <QVTKOpenGLNativeWidget.h>
 #include <CLI/CLI.hpp>
 #include <QApplication>
-#include <QSurfaceFormat>
 #include <QTimer>
 #include <nlohmann/json.hpp>
 
+#include "benchmark.hpp"
 #include "common/error.hpp"
 #include "common/interrupt.hpp"
 #include "common/private_display.hpp"
@@ -40,7 +39,7 @@ struct Arguments {
   std::vector<std::string> files;
   std::string view, out, size = "1280x720", state, part = "window";
   std::string save_session, load_session;
-  bool offscreen = false, light = false;
+  bool offscreen = false, light = false, benchmark = false;
   double timeout = 600.0;
   QSize pixels;
 };
@@ -80,6 +79,9 @@ void add_options(CLI::App& app, Arguments& arguments) {
                  "Seconds that --offscreen waits for work to end (default 600)")
       ->check(CLI::PositiveNumber)
       ->type_name("S");
+  app.add_flag("--benchmark", arguments.benchmark,
+               "Measure opening, dragging, turning and memory with generated volumes, without a "
+               "display; prints a table in Markdown");
   app.footer(
       "Examples:\n"
       "  shape3d-viewer scan/\n"
@@ -89,6 +91,8 @@ void add_options(CLI::App& app, Arguments& arguments) {
 }
 
 void check(Arguments& arguments) {
+  if (arguments.benchmark && !(arguments.files.empty() && arguments.out.empty()))
+    throw UsageError("--benchmark takes no files and no --out");
   if (arguments.offscreen && arguments.out.empty())
     throw UsageError("--offscreen needs --out, the picture to write");
   if (!arguments.out.empty() && !arguments.offscreen)
@@ -164,7 +168,8 @@ int run(int argc, char** argv, const Arguments& arguments) {
   // A display of our own without --out's window ever being seen; it ends after the application.
   std::unique_ptr<PrivateDisplay> display;
   int scale = 1;
-  if (arguments.offscreen) {
+  const bool hidden = arguments.offscreen || arguments.benchmark;
+  if (hidden) {
     display = std::make_unique<PrivateDisplay>();
     setenv("DISPLAY", display->name().c_str(), 1);
     setenv("QT_QPA_PLATFORM", "xcb", 1);
@@ -176,13 +181,18 @@ int run(int argc, char** argv, const Arguments& arguments) {
     if (type == QtCriticalMsg || type == QtFatalMsg)
       std::cerr << "shape3d-viewer: " << text.toStdString() << '\n';
   });
-  static_cast<void>(require_display());
-  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  const std::string renderer = require_display();
+  set_surface_format();
   QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   QApplication application(argc, argv);
   QApplication::setApplicationDisplayName("Shape3D");
-  MainWindow window(!arguments.offscreen);
-  if (arguments.offscreen) window.resize(arguments.pixels / scale);
+  MainWindow window(!hidden);
+  if (hidden) window.resize(arguments.pixels / scale);
+  if (arguments.benchmark) {
+    window.show();
+    std::cout << measure(window, renderer);
+    return 0;
+  }
   prepare(window, arguments);
   if (arguments.offscreen) return draw(window, arguments);
   window.show();

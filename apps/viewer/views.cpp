@@ -1,3 +1,5 @@
+#include "segmentation_view.hpp"
+#include "sphere_view.hpp"
 #include "surface_view.hpp"
 #include "view.hpp"
 #include "volume_view.hpp"
@@ -5,7 +7,8 @@
 namespace shape3d::apps::viewer {
 
 std::vector<View*> make_views(Document& document) {
-  return {new VolumeView(document), new SurfaceView(document)};
+  return {new VolumeView(document), new SurfaceView(document), new SegmentationView(document),
+          new SphereView(document)};
 }
 
 }  // namespace shape3d::apps::viewer

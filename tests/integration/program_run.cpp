@@ -53,6 +53,7 @@ Run run_shape3d(const std::vector<std::string>& arguments, const RunOptions& opt
     for (const std::string& pair : options.set) putenv(const_cast<char*>(pair.c_str()));
     limit(RLIMIT_FSIZE, options.file_size_limit);
     limit(RLIMIT_AS, options.memory_limit);
+    if (options.user != 0 && (setgid(options.user) != 0 || setuid(options.user) != 0)) _exit(125);
     execv(SHAPE3D_PROGRAM, argv.data());
     _exit(127);
   }

@@ -23,6 +23,7 @@ struct RunOptions {
   std::vector<std::string> set;                    ///< "NAME=value".
   std::uint64_t file_size_limit = 0;               ///< RLIMIT_FSIZE; 0: none.
   std::uint64_t memory_limit = 0;                  ///< RLIMIT_AS; 0: none.
+  unsigned user = 0;                               ///< User the program runs as; 0: this one.
   std::function<void(int process)> while_running;  ///< Called once, after the start.
 };
 

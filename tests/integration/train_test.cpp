@@ -229,6 +229,28 @@ TEST_CASE("classify describes meshes as the model was trained", "[train]") {
               .run({"train", "svm", "known.h5", "--class-from-folder", "-o", "svm.model", "--C",
                     "8", "--gamma", "0.1"})
               .status == 0);
+  // A library of the same meshes makes the same model, byte for byte.
+  std::vector<std::string> add{"library",         "add",
+                               "known.db",        "--class-from-folder",
+                               "--descriptor",    "d2:pairs=20000,bins=16",
+                               "--no-thumbnails", "-q"};
+  add.insert(add.end(), describe.begin() + 6, describe.end());
+  const Run added = tables.run(add);
+  INFO(added.err);
+  REQUIRE(added.status == 0);
+  REQUIRE(tables
+              .run({"train", "svm", "known.db", "-o", "library.model", "--C", "8", "--gamma", "0.1",
+                    "-q"})
+              .status == 0);
+  CHECK(tables.bytes("library.model") == tables.bytes("svm.model"));
+  const Run refused =
+      tables.run({"train", "svm", "known.db", "--class-from-folder", "-o", "x.model"});
+  CHECK(refused.status == 2);
+  CHECK_THAT(refused.err, Contains("--class-from-folder: not used with a library"));
+  const Run other =
+      tables.run({"train", "som", "known.db", "--descriptor", "hsh", "-o", "x.model"});
+  CHECK(other.status == 1);
+  CHECK_THAT(other.err, Contains("known.db: "));
   const Run found = tables.run({"classify", "svm.model", "box/7.off", "ring/7.off"});
   CHECK(found.status == 0);
   CHECK(found.out == "box/7.off: box\nring/7.off: ring\n");

@@ -1,12 +1,16 @@
 #include <filesystem>
 #include <fstream>
 
+#include <QAction>
 #include <QApplication>
 #include <QDialog>
 #include <QDir>
 #include <QDragEnterEvent>
 #include <QLabel>
+#include <QMenu>
+#include <QMenuBar>
 #include <QMimeData>
+#include <QSettings>
 #include <QTemporaryDir>
 #include <QTimer>
 #include <QUrl>
@@ -102,6 +106,39 @@ TEST_CASE("files are dropped on the window", "[viewer][keys]") {
   fixture.show("surface");
   CHECK(fixture.view<SurfaceView>("surface").triangles() == 4);
   CHECK(fixture.document().files() == std::vector<std::string>{path});
+}
+
+TEST_CASE("recent files are remembered, the newest first", "[viewer][keys]") {
+  WindowFixture fixture;
+  const QTemporaryDir folder;
+  QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, folder.path());
+  const auto recent = [](MainWindow& window) {
+    QStringList paths;
+    for (QMenu* menu : window.menuBar()->findChildren<QMenu*>()) {
+      if (menu->title() != "Open &recent") continue;
+      for (const QAction* action : menu->actions()) paths.append(action->text());
+    }
+    return paths;
+  };
+  const QString a = folder.filePath("a.off"), b = folder.filePath("b.off");
+  write_tetrahedron(a);
+  write_tetrahedron(b);
+  {
+    MainWindow window(true);
+    CHECK(recent(window).isEmpty());
+    for (const QString& path : {a, b, a}) window.open(path);
+    window.open(folder.filePath("none.off"));  // what cannot be opened is not remembered
+    CHECK(recent(window) == QStringList({a, b}));
+    CHECK(fixture.wait_until([&] { return !window.busy(); }));
+  }
+  MainWindow window(true);
+  CHECK(recent(window) == QStringList({a, b}));
+  for (QMenu* menu : window.menuBar()->findChildren<QMenu*>()) {
+    if (menu->title() == "Open &recent") menu->actions().at(1)->trigger();
+  }
+  REQUIRE(fixture.wait_until([&] { return window.document().meshes().size() == 1; }));
+  CHECK(window.document().files().front() == b.toStdString());
+  CHECK(recent(window) == QStringList({b, a}));
 }
 
 TEST_CASE("what cannot be read is said in the window", "[viewer][keys]") {

@@ -99,7 +99,7 @@ TEST_CASE("slices are seen as a radiologist sees them", "[viewer][slice]") {
 
 TEST_CASE("the window's ends, and NaN, are black and white", "[viewer][slice]") {
   std::vector<float> samples{
-      -5.0F, 0.0F, 50.0F, 100.0F, 1e30F, std::numeric_limits<float>::quiet_NaN(), -1e30F, 25.0F};
+      -5.0F, 0.0F, 60.0F, 100.0F, 1e30F, std::numeric_limits<float>::quiet_NaN(), -1e30F, 25.0F};
   const zmc::VolumeView view = zmc::make_view(samples.data(), {2, 2, 2});
   const SliceGeometry geometry(view, 2);
   CHECK(slice_image(view, geometry, 0, {50.0, 100.0}) == std::vector<std::uint8_t>{0, 0, 153, 255});

@@ -2,6 +2,12 @@
 
 #include <cmath>
 
+#include <QVTKOpenGLNativeWidget.h>
+#include <vtkActor.h>
+#include <vtkActorCollection.h>
+#include <vtkMapper.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -188,6 +194,43 @@ TEST_CASE("surfaces are added, made transparent and removed", "[viewer][surface]
   QTest::keyClick(&shown.window(), Qt::Key_Z, Qt::ControlModifier);
   REQUIRE(shown.settle());
   CHECK(shown.surface.surface_count() == 2);
+}
+
+// The most triangles that one actor of a scene draws now.
+vtkIdType drawn_triangles(SceneWidget* scene) {
+  vtkIdType most = 0;
+  vtkActorCollection* actors = scene->renderer()->GetActors();
+  actors->InitTraversal();
+  while (vtkActor* actor = actors->GetNextActor()) {
+    auto* data = vtkPolyData::SafeDownCast(actor->GetMapper()->GetInputAsDataSet());
+    if (actor->GetVisibility() != 0 && data != nullptr)
+      most = std::max(most, data->GetNumberOfPolys());
+  }
+  return most;
+}
+
+TEST_CASE("a large surface is turned as a coarse one and whole again after it",
+          "[viewer][surface]") {
+  Shown shown(ball_volume(176));
+  shown.control<QDoubleSpinBox>("isovalue")->setValue(-600.0);  // radius 80
+  REQUIRE(shown.settle());
+  SceneWidget* scene = shown.four->scene();
+  const vtkIdType whole = shown.surface.triangles();
+  REQUIRE(whole > 100'000);
+  CHECK(drawn_triangles(scene) == whole);
+  const QImage before = WindowFixture::grab(scene);
+  QImage turning;
+  vtkIdType coarse = 0;
+  drag(scene->gl_widget(), {120, 120}, {122, 120}, Qt::LeftButton, 2, [&] {
+    coarse = drawn_triangles(scene);
+    turning = WindowFixture::grab(scene);
+  });
+  CHECK(coarse > 15'000);
+  CHECK(coarse < 70'000);
+  // Nearly the same picture.
+  CHECK(changed_pixels(before, turning, 40) < before.width() * before.height() / 20);
+  REQUIRE(shown.settle());
+  CHECK(drawn_triangles(scene) == whole);
 }
 
 TEST_CASE("an empty surface is a sentence, not a crash", "[viewer][surface]") {

@@ -29,7 +29,7 @@ RunOptions in(const fs::path& folder) {
 
 TEST_CASE("each view is drawn without a display", "[viewer][program]") {
   const fs::path folder = fresh_folder();
-  for (const std::string view : {"volume", "surface"}) {
+  for (const std::string view : {"volume", "surface", "segmentation"}) {
     const Run run =
         run_shape3d({"--offscreen", "--view", view, "-o", view + ".png", "ball.mhd"}, in(folder));
     INFO(view << ": " << run.err);
@@ -50,6 +50,20 @@ TEST_CASE("each view is drawn without a display", "[viewer][program]") {
     }
   }
   CHECK(warm > 5000);
+}
+
+TEST_CASE("a segmentation is run and its charts are drawn without a display", "[viewer][program]") {
+  const fs::path folder = fresh_folder();
+  const Run run = run_shape3d(
+      {"--offscreen", "--view", "segmentation", "--state",
+       R"({"roi": [0, 32, 0, 32, 0, 32], "classes": "2", "run": true})", "-o", "s.png", "ball.mhd"},
+      in(folder));
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const PngImage image = decode_png(slurp(folder / "s.png"));
+  // The curve of S(w), the front in the slices.
+  CHECK(image.count({0.1, 0.35, 0.9}, 0.06) > 100);
+  CHECK(image.count({80 / 255.0, 160 / 255.0, 1.0}, 0.06) > 100);
 }
 
 TEST_CASE("4K pictures are drawn twice as large", "[viewer][program]") {
@@ -103,7 +117,7 @@ TEST_CASE("errors of the viewer are sentences with a status", "[viewer][program]
   check({"--offscreen", "-o", "x.jpg", "ball.mhd"}, 2, "expected a name that ends in .png");
   check({"--offscreen", "-o", "x.png", "--size", "9x9"}, 2, "--size 9x9: expected");
   check({"--offscreen", "-o", "x.png", "--view", "moon", "ball.mhd"}, 2,
-        "--view moon: expected one of volume, surface");
+        "--view moon: expected one of volume, surface, segmentation, sphere");
   check({"--offscreen", "-o", "x.png", "--state", "{", "ball.mhd"}, 2, "expected JSON");
   check({"--offscreen", "-o", "x.png", "--view", "surface", "--state", R"({"method": "mc33"})",
          "ball.mhd"},
@@ -117,6 +131,11 @@ TEST_CASE("errors of the viewer are sentences with a status", "[viewer][program]
   const Run run = run_shape3d({"ball.mhd"}, wrong);
   CHECK(run.status == 1);
   CHECK_THAT(run.err, Contains("no window can be opened on display :4711"));
+  RunOptions old = in(folder);
+  old.set = {"MESA_GL_VERSION_OVERRIDE=2.1"};
+  const Run early = run_shape3d({"--offscreen", "-o", "x.png", "ball.mhd"}, old);
+  CHECK(early.status == 1);
+  CHECK_THAT(early.err, Contains("it offers OpenGL 2.1, expected 3.2 or later"));
   // Without Xvfb: said, not crashed.
   RunOptions bare = in(folder);
   bare.set = {"PATH=/nonexistent"};

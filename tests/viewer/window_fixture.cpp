@@ -5,17 +5,16 @@
 #include <cstdlib>
 #include <thread>
 
-#include <QVTKOpenGLNativeWidget.h>
 #include <QApplication>
 #include <QMouseEvent>
 #include <QSlider>
 #include <QStandardPaths>
 #include <QStyleOptionSlider>
-#include <QSurfaceFormat>
 #include <QWheelEvent>
 #include <catch2/catch.hpp>
 
 #include "common/private_display.hpp"
+#include "display_check.hpp"
 
 namespace shape3d::test {
 namespace {
@@ -32,7 +31,7 @@ void require_application() {
   setenv("QT_QPA_PLATFORM", "xcb", 1);
   qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
   QStandardPaths::setTestModeEnabled(true);
-  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  set_surface_format();
   static int argc = 1;
   static char name[] = "viewer-test";
   static char* argv[] = {name, nullptr};
@@ -74,7 +73,7 @@ bool WindowFixture::settle() {
 }
 
 bool WindowFixture::wait_until(const std::function<bool()>& holds) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(90);
   while (!holds()) {
     if (std::chrono::steady_clock::now() > end) return false;
     QApplication::processEvents(QEventLoop::AllEvents, 20);

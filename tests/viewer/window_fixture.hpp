@@ -34,9 +34,9 @@ class WindowFixture {
   }
   /// Brings a view to the front and waits until all is done.
   void show(const char* name);
-  /// Lets the window work until it is at rest. @return whether it came to rest within 30 s.
+  /// Lets the window work until it is at rest. @return whether it came to rest within 90 s.
   bool settle();
-  /// Lets the window work until something holds. @return whether it came to hold within 30 s.
+  /// Lets the window work until something holds. @return whether it came to hold within 90 s.
   bool wait_until(const std::function<bool()>& holds);
   /// A picture of a widget, its 3D parts as well.
   static QImage grab(QWidget* widget);

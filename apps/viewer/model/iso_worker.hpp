@@ -50,9 +50,9 @@ struct IsoResult {
 class IsoWorker {
  public:
   /// Coarse volumes have at most this many samples.
-  static constexpr std::int64_t kCoarseSamples = std::int64_t{1} << 21;
+  static constexpr std::int64_t kCoarseSamples = std::int64_t{1} << 19;
   /// Triangles of what is drawn while turning.
-  static constexpr std::int64_t kDetailTriangles = 60'000;
+  static constexpr std::int64_t kDetailTriangles = 40'000;
 
   /// @param volume  Held as long as this lives.
   /// @param done    Called by the thread with each result.

@@ -114,26 +114,34 @@ std::vector<std::vector<std::array<double, 2>>> slice_contour(const zmc::VolumeV
                                                               const SliceGeometry& geometry,
                                                               double isovalue, std::int64_t slice,
                                                               bool exact) {
+  return part_contour(volume, geometry, volume, isovalue, slice, exact);
+}
+
+std::vector<std::vector<std::array<double, 2>>> part_contour(const zmc::VolumeView& whole,
+                                                             const SliceGeometry& geometry,
+                                                             const zmc::VolumeView& part,
+                                                             double isovalue, std::int64_t slice,
+                                                             bool exact) {
   zmc::Options options;
   options.non_finite = zmc::NonFinite::mask;
-  zmc::VolumeView layer = volume;
+  zmc::VolumeView layer = part;
   std::int64_t plane = slice;
   if (!exact) {
     const auto axis = static_cast<std::size_t>(geometry.axis());
-    std::array<std::int64_t, 3> lower{0, 0, 0}, upper = volume.dims;
+    std::array<std::int64_t, 3> lower{0, 0, 0}, upper = part.dims;
     // zmc::contour() takes the cells above the plane, below the last one.
-    lower[axis] = std::min(slice, volume.dims[axis] - 2);
+    lower[axis] = std::min(slice, part.dims[axis] - 2);
     upper[axis] = lower[axis] + 2;
-    layer = zmc::subvolume(volume, lower, upper);
+    layer = zmc::subvolume(part, lower, upper);
     plane = slice - lower[axis];
   }
   const zmc::Contour contour = zmc::contour(layer, isovalue, geometry.axis(), plane, options);
-  const Eigen::Matrix3d to_lattice = (volume.direction * volume.spacing.asDiagonal()).inverse();
+  const Eigen::Matrix3d to_lattice = (whole.direction * whole.spacing.asDiagonal()).inverse();
   std::vector<std::vector<std::array<double, 2>>> lines;
   for (const Polyline& line : join_edges(contour)) {
     std::vector<std::array<double, 2>> points;
     for (const std::int32_t v : line.vertices)
-      points.push_back(geometry.place(to_lattice * (contour.V.row(v).transpose() - volume.origin)));
+      points.push_back(geometry.place(to_lattice * (contour.V.row(v).transpose() - whole.origin)));
     if (line.closed) points.push_back(points.front());
     lines.push_back(std::move(points));
   }

@@ -62,4 +62,11 @@ class SliceGeometry {
     const zmc::VolumeView& volume, const SliceGeometry& geometry, double isovalue,
     std::int64_t slice, bool exact = false);
 
+/// The same of a part of the volume, or of other samples in its place, over the slice of the whole.
+/// @param part   Its axes are those of the whole.
+/// @param slice  Of the part.
+[[nodiscard]] std::vector<std::vector<std::array<double, 2>>> part_contour(
+    const zmc::VolumeView& whole, const SliceGeometry& geometry, const zmc::VolumeView& part,
+    double isovalue, std::int64_t slice, bool exact = false);
+
 }  // namespace shape3d::apps::viewer

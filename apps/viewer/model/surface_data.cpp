@@ -169,24 +169,32 @@ vtkSmartPointer<vtkPolyData> twin_of(vtkPolyData* surface) {
 
 vtkSmartPointer<vtkPolyData> level_of_detail(vtkPolyData* surface, std::int64_t triangles) {
   if (surface->GetNumberOfPolys() <= triangles) return nullptr;
-  // Clusters are cubes of the bounding box; a surface meets about 2 d² of d³ cubes, and has two
-  // triangles in each.
   double bounds[6];
   surface->GetBounds(bounds);
   double longest = 0.0;
   for (int axis = 0; axis < 3; ++axis)
     longest = std::max(longest, bounds[2 * axis + 1] - bounds[2 * axis]);
   if (!(longest > 0.0)) return nullptr;
-  const double divisions = std::sqrt(static_cast<double>(triangles) / 4.0);
+  // Clusters are cubes. How many a surface meets grows with the square of the divisions and with
+  // its area in the box: it is tried out for a convex body and put right once.
   vtkNew<vtkQuadricClustering> cluster;
   cluster->SetInputData(surface);
   cluster->UseInputPointsOn();
   cluster->CopyCellDataOff();
   cluster->AutoAdjustNumberOfDivisionsOff();
-  cluster->SetNumberOfDivisions(
-      std::max(2, static_cast<int>(divisions * (bounds[1] - bounds[0]) / longest)),
-      std::max(2, static_cast<int>(divisions * (bounds[3] - bounds[2]) / longest)),
-      std::max(2, static_cast<int>(divisions * (bounds[5] - bounds[4]) / longest)));
+  double divisions = std::sqrt(static_cast<double>(triangles) / 10.0);
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const auto along = [&](int axis) {
+      return std::max(
+          2, static_cast<int>(divisions * (bounds[2 * axis + 1] - bounds[2 * axis]) / longest));
+    };
+    cluster->SetNumberOfDivisions(along(0), along(1), along(2));
+    cluster->Update();
+    const double ratio = static_cast<double>(cluster->GetOutput()->GetNumberOfPolys()) /
+                         static_cast<double>(triangles);
+    if (ratio > 0.7 && ratio < 1.3) break;
+    divisions /= std::sqrt(std::max(ratio, 0.01));
+  }
   vtkNew<vtkPolyDataNormals> normals;
   normals->SetInputConnection(cluster->GetOutputPort());
   normals->SplittingOff();

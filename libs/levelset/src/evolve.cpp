@@ -39,6 +39,7 @@ void check(const Grid& grid, const Field& psi, const Field& advance, const Field
           options.curvature, "a finite number of mm that is not negative");
   require(options.redistance_interval >= 1 && options.redistance_interval <= 8,
           "redistance_interval", options.redistance_interval, "1 to 8");
+  require(options.watch_interval >= 1, "watch_interval", options.watch_interval, "at least 1");
   check_field("psi", psi, grid);
   check_field("advance", advance, grid);
   if (factor.size() > 0) check_field("factor", factor, grid);
@@ -164,6 +165,8 @@ Evolution evolve(const Grid& grid, const Field& psi, const Field& advance, const
       result.status = Status::iteration_limit;
       break;
     }
+    if (options.watch && iteration % options.watch_interval == 0)
+      options.watch(statistics, band.copy());
     if (options.progress) {
       forecast.add(iteration, band.active_tiles(), seconds_since(start));
       if (!options.progress({"evolution", forecast.share, forecast.seconds_left})) {

@@ -201,6 +201,8 @@ void NarrowBand::activate(std::vector<char> now) {
   for (const std::int64_t t : active_) max_speed_ = std::max(max_speed_, tile_speed_[t]);
 }
 
+Field NarrowBand::copy() const { return unpad(lattice_, current_, threads_); }
+
 Field NarrowBand::take() {
   parallel_for(lattice_.tiles.size(), threads_, [&](std::int64_t t) {
     find_rows(t);

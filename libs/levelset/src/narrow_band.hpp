@@ -44,6 +44,8 @@ class NarrowBand {
     return static_cast<std::int64_t>(active_.size());
   }
   [[nodiscard]] std::int64_t inside() const { return inside_; }
+  /// ψ without ghosts; away from the front only its sign is of use.
+  [[nodiscard]] Field copy() const;
   /// ψ without ghosts, ±limit away from the front. The buffers are given up.
   [[nodiscard]] Field take();
 

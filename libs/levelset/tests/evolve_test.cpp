@@ -5,6 +5,8 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -248,6 +250,30 @@ TEST_CASE("a step keeps to the CFL bound and the statistics add up", "[levelset]
   CHECK(e.iterations.back().inside == (e.psi <= 0.0F).count());
 }
 
+TEST_CASE("a front on its way is that of an evolution which ends there", "[levelset]") {
+  const Grid grid = cube(2.0, 1.0);
+  const Field start = sphere_front(grid, centre(grid), 8.0);
+  EvolveOptions options = steps_for(grid, 6.0, 1.0);
+  options.watch_interval = 2;
+  std::vector<std::pair<FrontStatistics, Field>> seen;
+  options.watch = [&seen](const FrontStatistics& at, const Field& psi) {
+    seen.emplace_back(at, psi);
+  };
+  const Evolution whole = evolve(grid, start, constant(grid, 1.0F), {}, options);
+  REQUIRE(static_cast<int>(seen.size()) == (options.max_iterations - 1) / 2);
+  for (const auto& [at, psi] : seen) {
+    EvolveOptions shorter = options;
+    shorter.watch = nullptr;
+    shorter.max_iterations = at.iteration;
+    const Evolution part = evolve(grid, start, constant(grid, 1.0F), {}, shorter);
+    CHECK(((psi <= 0.0F) == (part.psi <= 0.0F)).all());
+    CHECK(at.inside == (psi <= 0.0F).count());
+  }
+  // Watching changes nothing.
+  options.watch = nullptr;
+  CHECK((evolve(grid, start, constant(grid, 1.0F), {}, options).psi == whole.psi).all());
+}
+
 TEST_CASE("an evolution reports and can be cancelled", "[levelset]") {
   const Grid grid{{30, 30, 30}, {1, 1, 1}};
   EvolveOptions options;
@@ -283,6 +309,7 @@ TEST_CASE("settings and fields of an evolution that are wrong are refused",
   refused([](EvolveOptions& o) { o.cfl = 1; }, "cfl is 1; expected a number between 0 and 1");
   refused([](EvolveOptions& o) { o.curvature = -0.1; }, "curvature is -0.1");
   refused([](EvolveOptions& o) { o.redistance_interval = 9; }, "redistance_interval is 9");
+  refused([](EvolveOptions& o) { o.watch_interval = 0; }, "watch_interval is 0");
   refused([](EvolveOptions& o) { o.threads = -1; }, "threads is -1");
   CHECK_THROWS_WITH(evolve(grid, Field::Zero(3), speed, {}),
                     Contains("psi: size is 3; expected 512"));

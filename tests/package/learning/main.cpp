@@ -1,17 +1,21 @@
-// Divides nine items of three classes into three folds. Fails unless each fold has one of each.
+// Trains a support vector machine and a map on two clouds. Fails unless both tell the clouds apart.
 #include <cstdio>
-#include <set>
-#include <utility>
 
-#include <shape3d/learning/folds.hpp>
+#include <shape3d/learning/som_maps.hpp>
+#include <shape3d/learning/svm.hpp>
 
 int main() {
-  const shape3d::learning::Labels labels{0, 0, 0, 1, 1, 1, 2, 2, 2};
-  const std::vector<int> folds = shape3d::learning::stratified_folds(labels, 3, 42);
-  std::set<std::pair<int, int>> seen;
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    std::printf("class %d fold %d\n", labels[i], folds[i]);
-    seen.emplace(labels[i], folds[i]);
+  using namespace shape3d::learning;
+  Features X(40, 2);
+  Labels labels;
+  for (int i = 0; i < 40; ++i) {
+    labels.push_back(i % 2);
+    X.row(i) << 10.0 * (i % 2) + 0.1 * (i % 7), 0.2 * (i % 5);
   }
-  return seen.size() == 9 ? 0 : 1;
+  const Labels predicted = Svm::train(X, labels).predict(X);
+  const Som som = train_som(X);
+  const double pure = purity(best_units(som, X).first, labels, som.grid.units());
+  std::printf("machine %s, purity of the map %.2f\n", predicted == labels ? "right" : "wrong",
+              pure);
+  return predicted == labels && pure == 1.0 ? 0 : 1;
 }

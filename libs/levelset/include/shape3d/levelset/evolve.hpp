@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "shape3d/levelset/export.hpp"
@@ -24,6 +25,8 @@ enum class Border {
   continued  ///< The nearest node: fronts meet the border at a right angle.
 };
 
+struct FrontStatistics;
+
 /// Settings of evolve().
 struct EvolveOptions {
   int max_iterations = 1000;  ///< At least 1.
@@ -41,6 +44,11 @@ struct EvolveOptions {
   int redistance_interval = 4;
   int threads = 0;  ///< 0: all processors. The result does not depend on it.
   ProgressFunction progress;
+  /// Called from the calling thread after each `watch_interval` iterations that do not end it, with
+  /// ψ as it is then, away from the front of the right sign alone: to show the front on its way.
+  /// Costs a copy of ψ each time.
+  std::function<void(const FrontStatistics&, const Field&)> watch;
+  int watch_interval = 10;  ///< At least 1.
 };
 
 /// The front after an iteration.

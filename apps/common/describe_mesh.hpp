@@ -6,7 +6,7 @@
 
 #include <shape3d/descriptors/descriptor.hpp>
 
-#include "common/mesh.hpp"
+#include "mesh.hpp"
 
 namespace shape3d::apps {
 
