@@ -37,21 +37,18 @@ struct Series {
   }
 };
 
-Series segmentations(const levelset::ImageView& image, levelset::SegmentOptions options,
-                     bool calibrated, int seeds) {
-  Series series;
+// One segmentation; its row is told at once, for a series takes minutes.
+void add(const levelset::ImageView& image, levelset::SegmentOptions options, bool calibrated,
+         int seed, Series& series) {
   options.calibrated = calibrated;
-  for (int seed = 1; seed <= seeds; ++seed) {
-    options.mixture.seed = static_cast<std::uint64_t>(seed);
-    const levelset::Segmentation s = levelset::segment(image, options);
-    series.volumes.push_back(s.volume / 1000.0);
-    const std::vector<double> levels = calibrated ? s.calibration.levels : s.model.levels(0.0);
-    series.levels.push_back(levels.empty() ? std::nan("") : levels.front());
-    std::cerr << (calibrated ? "calibrated" : "as estimated") << ", seed " << seed << ": "
-              << series.volumes.back() << " ml, level " << series.levels.back() << ", "
-              << levelset::to_string(s.status) << '\n';
-  }
-  return series;
+  options.mixture.seed = static_cast<std::uint64_t>(seed);
+  const levelset::Segmentation s = levelset::segment(image, options);
+  series.volumes.push_back(s.volume / 1000.0);
+  const std::vector<double> levels = calibrated ? s.calibration.levels : s.model.levels(0.0);
+  series.levels.push_back(levels.empty() ? std::nan("") : levels.front());
+  std::cerr << (calibrated ? "calibrated" : "as estimated") << ", seed " << seed << ": "
+            << series.volumes.back() << " ml, level " << series.levels.back() << ", "
+            << levelset::to_string(s.status) << std::endl;
 }
 
 apps::ChartSeries points(const std::string& label, const std::vector<double>& values,
@@ -111,12 +108,14 @@ int run(int argc, char** argv) {
       "Segments a volume of int16 samples with many seeds and few iterations of stochastic EM.");
   std::string path, picture, title = "Volume by seed";
   std::vector<std::int64_t> roi;
-  int seeds = 20, classes = 3, chain = 3;
+  int seeds = 20, classes = 3, chain = 3, iterations = levelset::EvolveOptions{}.max_iterations;
   program.add_option("VOLUME", path)->required();
   program.add_option("--roi", roi, "x0,x1,y0,y1,z0,z1")->delimiter(',')->expected(6);
   program.add_option("--seeds", seeds)->check(CLI::Range(2, 1000));
   program.add_option("--classes", classes)->check(CLI::Range(2, 8));
   program.add_option("--chain", chain, "Iterations of stochastic EM")->check(CLI::Range(2, 1000));
+  program.add_option("--iterations", iterations, "Limit of steps of the evolution")
+      ->check(CLI::Range(1, 1000000));
   program.add_option("--picture", picture, "The chart (.png)");
   program.add_option("--title", title);
   CLI11_PARSE(program, argc, argv);
@@ -131,8 +130,12 @@ int run(int argc, char** argv) {
   options.mixture.classes = classes;
   options.mixture.chain = chain;
   options.mixture.runs = 1;
-  const Series without = segmentations(image, options, false, seeds);
-  const Series with = segmentations(image, options, true, seeds);
+  options.evolution.max_iterations = iterations;
+  Series without, with;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    add(image, options, false, seed, without);
+    add(image, options, true, seed, with);
+  }
   if (!picture.empty()) {
     apps::OutputFile file(picture);
     file.write(draw(with, without, title));
@@ -141,6 +144,7 @@ int run(int argc, char** argv) {
   std::cout << nlohmann::ordered_json{{"seeds", seeds},
                                       {"classes", classes},
                                       {"chain", chain},
+                                      {"iterations", iterations},
                                       {"calibrated", to_json(with)},
                                       {"estimated", to_json(without)}}
                    .dump(2)

@@ -164,6 +164,19 @@ std::vector<std::uint8_t> colors_of_directions(const double* vectors, std::size_
   return bytes;
 }
 
+Color light_color(int group) {
+  if (group < 0) return {1.0, 1.0, 1.0};
+  const double hue = std::fmod(0.08 + 0.6180339887498949 * group, 1.0) * 6.0;
+  const double lowest = group % 2 == 0 ? 0.72 : 0.60;
+  Color color{};
+  for (int c = 0; c < 3; ++c) {
+    const double k = std::fmod(hue + 5.0 - 2.0 * c + 6.0, 6.0);
+    const double share = std::clamp(std::min(k, 4.0 - k), 0.0, 1.0);
+    color[static_cast<std::size_t>(c)] = 1.0 - (1.0 - lowest) * share;
+  }
+  return color;
+}
+
 std::vector<Tick> ticks_of(const ColorScale& scale, int most) {
   std::vector<Tick> ticks;
   if (scale.lower < scale.upper) {

@@ -52,6 +52,10 @@ inline constexpr Color kNoValueColor{0.55, 0.55, 0.55};  ///< Of NaN.
 [[nodiscard]] std::vector<std::uint8_t> colors_of_directions(const double* vectors,
                                                              std::size_t count);
 
+/// Colors behind dark text for groups that are numbered: light, of hues that are far apart for
+/// numbers that are near. White for negative numbers.
+[[nodiscard]] Color light_color(int group);
+
 /// A number at a mark of the bar.
 struct Tick {
   double value = 0.0;

@@ -1,5 +1,6 @@
 #include "levelset_views.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -7,7 +8,8 @@ namespace shape3d::apps {
 namespace {
 
 template <class T>
-void mark(const zmc::VolumeView& view, double label, std::vector<std::uint8_t>& mask) {
+void mark(const zmc::VolumeView& view, const std::vector<double>& labels,
+          std::vector<std::uint8_t>& mask) {
   const std::array<std::int64_t, 3> strides = view.effective_strides();
   const T* data = static_cast<const T*>(view.data);
   std::size_t n = 0;
@@ -16,7 +18,10 @@ void mark(const zmc::VolumeView& view, double label, std::vector<std::uint8_t>& 
       for (std::int64_t i = 0; i < view.dims[0]; ++i) {
         const auto value =
             static_cast<double>(data[i * strides[0] + j * strides[1] + k * strides[2]]);
-        mask[n++] = (label == 0.0 ? value != 0.0 : value == label) ? 1 : 0;
+        const bool counts = labels.empty()
+                                ? value != 0.0
+                                : std::find(labels.begin(), labels.end(), value) != labels.end();
+        mask[n++] = counts ? 1 : 0;
       }
     }
   }
@@ -56,32 +61,32 @@ levelset::ImageView image_of(const zmc::VolumeView& view) {
   return image;
 }
 
-Mask labelled(const zmc::VolumeView& view, double label) {
+Mask labelled(const zmc::VolumeView& view, const std::vector<double>& labels) {
   Mask mask;
   mask.dims = view.dims;
   mask.spacing = view.spacing;
   mask.samples.resize(static_cast<std::size_t>(view.dims[0] * view.dims[1] * view.dims[2]));
   switch (view.type) {
     case zmc::SampleType::int8:
-      mark<std::int8_t>(view, label, mask.samples);
+      mark<std::int8_t>(view, labels, mask.samples);
       break;
     case zmc::SampleType::uint8:
-      mark<std::uint8_t>(view, label, mask.samples);
+      mark<std::uint8_t>(view, labels, mask.samples);
       break;
     case zmc::SampleType::int16:
-      mark<std::int16_t>(view, label, mask.samples);
+      mark<std::int16_t>(view, labels, mask.samples);
       break;
     case zmc::SampleType::uint16:
-      mark<std::uint16_t>(view, label, mask.samples);
+      mark<std::uint16_t>(view, labels, mask.samples);
       break;
     case zmc::SampleType::int32:
-      mark<std::int32_t>(view, label, mask.samples);
+      mark<std::int32_t>(view, labels, mask.samples);
       break;
     case zmc::SampleType::float32:
-      mark<float>(view, label, mask.samples);
+      mark<float>(view, labels, mask.samples);
       break;
     case zmc::SampleType::float64:
-      mark<double>(view, label, mask.samples);
+      mark<double>(view, labels, mask.samples);
       break;
   }
   return mask;

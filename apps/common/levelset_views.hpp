@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <shape3d/levelset/image_view.hpp>
 #include <shape3d/zmc/volume_view.hpp>
 
@@ -20,7 +22,7 @@ template <class T>
   return result;
 }
 
-/// The samples of one label; label 0: all that are not 0.
-[[nodiscard]] Mask labelled(const zmc::VolumeView& view, double label);
+/// The samples of these labels; without any: all that are not 0.
+[[nodiscard]] Mask labelled(const zmc::VolumeView& view, const std::vector<double>& labels);
 
 }  // namespace shape3d::apps

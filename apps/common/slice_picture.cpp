@@ -161,13 +161,24 @@ class SliceItem : public vtkContextItem {
   ~SliceItem() override = default;
 
  private:
+  // Points nearer than a tenth of a pixel to the last one are left out, for they have no direction;
+  // a loop that is smaller, round a single sample, is a dot, or nothing would be seen of it.
   void draw(vtkContext2D* painter, const std::vector<std::array<double, 2>>& line) const {
+    constexpr float kLeast = 0.1F, kDot = 0.8F;
     std::vector<float> points;
     for (const auto& point : line) {
-      points.push_back(frame_.x + scale_ * static_cast<float>(point[0]));
-      points.push_back(frame_.y + frame_.height - scale_ * static_cast<float>(point[1]));
+      const float x = frame_.x + scale_ * static_cast<float>(point[0]);
+      const float y = frame_.y + frame_.height - scale_ * static_cast<float>(point[1]);
+      const std::size_t size = points.size();
+      if (size >= 2 && std::hypot(x - points[size - 2], y - points[size - 1]) < kLeast) continue;
+      points.push_back(x);
+      points.push_back(y);
     }
-    if (line.size() > 1) painter->DrawPoly(points.data(), static_cast<int>(line.size()));
+    if (points.size() > 2) {
+      painter->DrawPoly(points.data(), static_cast<int>(points.size() / 2));
+    } else if (line.size() > 1) {  // smaller than a pixel: a dot
+      painter->DrawLine(points[0] - kDot, points[1], points[0] + kDot, points[1]);
+    }
   }
 
   const SlicePanel* panel_ = nullptr;

@@ -19,16 +19,10 @@
 namespace shape3d::apps {
 namespace {
 
-constexpr Color kPaper{1.0, 1.0, 1.0}, kClay{0.80, 0.82, 0.86};
+constexpr Color kClay{0.80, 0.82, 0.86};
 
 std::string picture_of(const Mesh& mesh, SceneRenderer& renderer) {
-  std::vector<SceneMesh> items(1);
-  items[0].mesh = view_of(mesh);
-  items[0].mesh.vertex_arrays = nullptr;
-  items[0].mesh.triangle_arrays = nullptr;
-  items[0].color = kClay;
-  items[0].shading = 0.97;  // not 1: ambient occlusion takes longer than all else
-  return to_png(renderer.render(items, View::upright));
+  return to_png(thumbnail_raster(mesh, renderer));
 }
 
 void append(std::string& bytes, const std::string& part) {
@@ -39,7 +33,7 @@ void append(std::string& bytes, const std::string& part) {
 
 // In the process that draws: the pictures one after another, each after its length.
 std::string pictures_of(const std::string* paths, std::size_t count) {
-  SceneRenderer renderer(kThumbnailSize, kThumbnailSize, kPaper);
+  SceneRenderer renderer(kThumbnailSize, kThumbnailSize, kThumbnailPaper);
   std::string bytes;
   for (std::size_t i = 0; i < count; ++i) {
     std::string png;
@@ -78,13 +72,24 @@ void draw_batch(const std::string& display, const std::string* paths, std::strin
 
 }  // namespace
 
+Raster thumbnail_raster(const Mesh& mesh, SceneRenderer& renderer) {
+  std::vector<SceneMesh> items(1);
+  items[0].mesh = view_of(mesh);
+  items[0].mesh.vertex_arrays = nullptr;
+  items[0].mesh.triangle_arrays = nullptr;
+  items[0].color = kClay;
+  items[0].shading = 0.97;  // not 1: ambient occlusion takes longer than all else
+  return renderer.render(items, View::upright);
+}
+
 ThumbnailPainter::ThumbnailPainter(int threads)
     : processes_(threads > 0 ? static_cast<std::size_t>(threads)
                              : std::max(1U, std::thread::hardware_concurrency())) {
   const auto works = [](const std::string& display) {
     return draw_on(display,
                    [] {
-                     static_cast<void>(SceneRenderer(32, 32, kPaper).render({}, View::upright));
+                     static_cast<void>(
+                         SceneRenderer(32, 32, kThumbnailPaper).render({}, View::upright));
                      return std::string();
                    })
         .ok;
@@ -118,7 +123,7 @@ std::vector<std::string> ThumbnailPainter::draw(const std::vector<std::string>& 
 std::string draw_thumbnail(const Mesh& mesh) {
   if (mesh.F.rows() == 0) throw PictureError("there is no triangle to draw");
   return draw_offscreen([&] {
-    SceneRenderer renderer(kThumbnailSize, kThumbnailSize, kPaper);
+    SceneRenderer renderer(kThumbnailSize, kThumbnailSize, kThumbnailPaper);
     return picture_of(mesh, renderer);
   });
 }
@@ -137,7 +142,7 @@ Raster decode_png_raster(const std::string& png) {
       image->GetScalarType() != VTK_UNSIGNED_CHAR) {
     throw PictureError("is no PNG of red, green and blue bytes");
   }
-  Raster raster = make_raster(dims[0], dims[1], kPaper);
+  Raster raster = make_raster(dims[0], dims[1], kThumbnailPaper);
   for (int y = 0; y < dims[1]; ++y) {  // VTK's images begin at the foot
     std::memcpy(
         raster.rgb.data() + 3 * static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(y),

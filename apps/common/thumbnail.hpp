@@ -10,7 +10,10 @@
 
 namespace shape3d::apps {
 
+class SceneRenderer;
+
 inline constexpr int kThumbnailSize = 256;  ///< Pixels, width and height.
+inline constexpr Color kThumbnailPaper{1.0, 1.0, 1.0};
 
 /// Draws small pictures of meshes, seen from in front, a little from the right and above, with the
 /// y axis upwards; several processes draw at a time.
@@ -33,6 +36,10 @@ class ThumbnailPainter {
 /// The same of one mesh in memory.
 /// @throws PictureError  it has no triangle; no display works.
 [[nodiscard]] std::string draw_thumbnail(const Mesh& mesh);
+
+/// The same with a renderer of that size and paper, where windows of VTK can be opened.
+/// @pre  The mesh has a triangle.
+[[nodiscard]] Raster thumbnail_raster(const Mesh& mesh, SceneRenderer& renderer);
 
 /// The pixels of a PNG of thumbnails. @throws PictureError  it is no PNG.
 [[nodiscard]] Raster decode_png_raster(const std::string& png);

@@ -12,8 +12,8 @@
 #include "common/error.hpp"
 #include "common/feature_table.hpp"
 #include "common/mesh_io.hpp"
+#include "common/model_io.hpp"
 #include "learning_commands.hpp"
-#include "model_io.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "collection.hpp"
 #include "common/error.hpp"
-#include "common/mesh_io.hpp"
+#include "common/mesh_folder.hpp"
 #include "library_arguments.hpp"
 
 namespace shape3d::apps {
@@ -86,25 +86,6 @@ void classify(std::vector<NamedMesh>& meshes, const std::string& path, const Set
   say(empty, "classes have no mesh");
   say(single, "classes have a single mesh, which has nothing to be found");
   if (unnamed > 0) warn(settings, path + ": " + std::to_string(unnamed) + " meshes are not in it");
-}
-
-std::vector<fs::path> meshes_below(const std::string& folder) {
-  std::vector<fs::path> files;
-  try {
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(
-             folder, fs::directory_options::follow_directory_symlink)) {
-      if (entry.is_regular_file() && mesh_format(entry.path().string())) {
-        files.push_back(entry.path());
-      }
-    }
-  } catch (const fs::filesystem_error& error) {
-    throw FileError(folder, "cannot be looked through: " + error.code().message());
-  }
-  if (files.empty()) {
-    throw FileError(folder, "holds no mesh, expected files .ply, .obj, .off, .stl or .vtp");
-  }
-  std::sort(files.begin(), files.end());
-  return files;
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 #include <shape3d/learning/som_maps.hpp>
 
 #include "common/error.hpp"
+#include "common/model_io.hpp"
 #include "common/output_file.hpp"
 #include "learning_commands.hpp"
-#include "model_io.hpp"
 #include "report.hpp"
 #include "som_picture.hpp"
 

@@ -10,22 +10,10 @@
 #include "common/picture.hpp"
 #include "common/text_scanner.hpp"
 #include "progress.hpp"
+#include "render_arguments.hpp"
 #include "report.hpp"
 
 namespace shape3d::apps {
-namespace {
-
-struct RenderArguments {
-  std::vector<std::string> meshes;
-  std::string output;
-  std::string size = "1000x1000";
-  std::vector<std::string> colors;
-  std::vector<double> opacities;
-  std::string view = "front";
-  std::string background = "white";
-  bool largest = false;
-  bool offscreen = false;
-};
 
 Color color_of(const std::string& option, const std::string& name) {
   const std::optional<Color> color = color_named(name);
@@ -37,19 +25,18 @@ Color color_of(const std::string& option, const std::string& name) {
 
 PictureOptions picture_options(const RenderArguments& arguments) {
   PictureOptions options;
-  const std::size_t cross = arguments.size.find('x');
+  const std::string size = arguments.size.empty() ? "1000x1000" : arguments.size;
+  const std::size_t cross = size.find('x');
   std::int64_t width = 0, height = 0;
-  const bool numbers =
-      cross != std::string::npos &&
-      TextScanner::parse(std::string_view(arguments.size).substr(0, cross), width) &&
-      TextScanner::parse(std::string_view(arguments.size).substr(cross + 1), height);
+  const bool numbers = cross != std::string::npos &&
+                       TextScanner::parse(std::string_view(size).substr(0, cross), width) &&
+                       TextScanner::parse(std::string_view(size).substr(cross + 1), height);
   if (!numbers || width < 16 || height < 16 || width > 8192 || height > 8192) {
-    throw UsageError("--size " + arguments.size +
-                     ": expected WIDTHxHEIGHT in pixels, each from 16 to 8192");
+    throw UsageError("--size " + size + ": expected WIDTHxHEIGHT in pixels, each from 16 to 8192");
   }
   options.width = static_cast<int>(width);
   options.height = static_cast<int>(height);
-  const std::optional<View> view = view_named(arguments.view);
+  const std::optional<View> view = view_named(arguments.view.empty() ? "front" : arguments.view);
   if (!view)
     throw UsageError("--view " + arguments.view + ": expected one of " + std::string(kViewNames));
   options.view = *view;
@@ -57,6 +44,8 @@ PictureOptions picture_options(const RenderArguments& arguments) {
   options.private_display = arguments.offscreen;
   return options;
 }
+
+namespace {
 
 void check_counts(const std::string& option, std::size_t given, std::size_t meshes) {
   if (given > meshes) {
@@ -69,6 +58,12 @@ void render(const RenderArguments& arguments, const Settings& settings) {
   if (std::filesystem::path(arguments.output).extension() != ".png") {
     throw UsageError("-o " + arguments.output + ": expected a name that ends in .png");
   }
+  if (!arguments.sheet.empty()) {
+    render_sheet(arguments, settings);
+    return;
+  }
+  if (arguments.meshes.empty())
+    throw UsageError("no mesh is named, expected meshes or --sheet DIR");
   check_counts("--color", arguments.colors.size(), arguments.meshes.size());
   check_counts("--opacity", arguments.opacities.size(), arguments.meshes.size());
   const PictureOptions options = picture_options(arguments);
@@ -104,7 +99,7 @@ void render(const RenderArguments& arguments, const Settings& settings) {
   report["output"] = arguments.output;
   report["width"] = options.width;
   report["height"] = options.height;
-  report["view"] = arguments.view;
+  report["view"] = arguments.view.empty() ? "front" : arguments.view;
   report["seconds"] = {{"read", read_seconds}, {"draw", watch.lap()}};
   write_json(settings, report);
   file.commit();
@@ -117,12 +112,18 @@ void render(const RenderArguments& arguments, const Settings& settings) {
 void add_render(CLI::App& app, Settings& settings) {
   auto arguments = std::make_shared<RenderArguments>();
   CLI::App* command = app.add_subcommand("render", "Draw meshes as a picture");
-  command->add_option("MESH", arguments->meshes, "Meshes (.ply, .obj, .off, .stl, .vtp)")
-      ->required();
+  command->add_option("MESH", arguments->meshes, "Meshes (.ply, .obj, .off, .stl, .vtp)");
+  command
+      ->add_option("--sheet", arguments->sheet,
+                   "Draw all meshes below a folder on one page, each with its name")
+      ->type_name("DIR");
   command->add_option("-o,--output", arguments->output, "The picture (.png)")
       ->required()
       ->type_name("FILE");
-  command->add_option("--size", arguments->size, "Pixels (default 1000x1000)")->type_name("WxH");
+  command
+      ->add_option("--size", arguments->size,
+                   "Pixels (default 1000x1000; of a sheet, what its meshes need)")
+      ->type_name("WxH");
   command
       ->add_option("--color", arguments->colors,
                    "Color of each mesh in turn: #rrggbb, " + std::string(kColorNames))
@@ -133,9 +134,10 @@ void add_render(CLI::App& app, Settings& settings) {
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("X");
   command
-      ->add_option(
-          "--view", arguments->view,
-          "From where: " + std::string(kViewNames) + " (of a patient in LPS; default front)")
+      ->add_option("--view", arguments->view,
+                   "From where: " + std::string(kViewNames) +
+                       " (of a patient in LPS; default front; on a "
+                       "sheet, upright for meshes that do not say their space)")
       ->type_name("VIEW");
   command
       ->add_option("--background", arguments->background, "Color of the background (default white)")
@@ -147,7 +149,8 @@ void add_render(CLI::App& app, Settings& settings) {
       "Examples:\n"
       "  shape3d render bone.ply -o bone.png --view oblique\n"
       "  shape3d render bone.ply skin.ply --color bone --color skin --opacity 1 --opacity 0.3 -o "
-      "head.png --size 1600x1200");
+      "head.png --size 1600x1200\n"
+      "  shape3d render --sheet shapes/ -o sheet.png");
   command->callback([arguments, &settings] {
     settings.run = [arguments, &settings] { render(*arguments, settings); };
   });

@@ -11,10 +11,7 @@
 
 #include <shape3d/descriptors/descriptor.hpp>
 
-#include "common/byte_source.hpp"
-#include "common/describe_mesh.hpp"
 #include "common/error.hpp"
-#include "common/mesh_io.hpp"
 #include "common/output_file.hpp"
 #include "common/private_display.hpp"
 #include "program.hpp"
@@ -68,52 +65,6 @@ learning::Norm norm_of(const SearchArguments& arguments) {
   return arguments.norm == "L1" ? learning::Norm::L1 : learning::Norm::L2;
 }
 
-Query query_of_id(const ShapeLibrary& library, std::int64_t id) {
-  Query query;
-  query.name = std::to_string(id);
-  query.model = library.model(id);
-  if (!query.model) throw FileError(library.path(), "has no model " + std::to_string(id));
-  return query;
-}
-
-Query query_of_mesh(const ShapeLibrary& library, const std::string& path,
-                    const Settings& settings) {
-  Query query;
-  query.name = path;
-  const std::optional<MeshFormat> format = mesh_format(path);
-  if (!format) throw FileError(path, unknown_mesh_extension(path));
-  const MappedFile file(path);
-  query.model = library.model_of_digest(digest_of(file.bytes()));
-  MeshFile parsed = parse_mesh(file.bytes(), *format, path);
-  for (const std::string& sentence : parsed.warnings) warn(settings, path + ": " + sentence);
-  query.mesh = std::move(parsed.mesh);
-  return query;
-}
-
-// The query's vector: that of the library, else computed.
-Eigen::VectorXd vector_of(const ShapeLibrary& library, const Query& query, const std::string& spec,
-                          const Settings& settings) {
-  if (query.model) {
-    const std::optional<Eigen::VectorXd> stored = library.vector(query.model->id, spec);
-    if (stored) return *stored;
-    if (!query.mesh) {
-      throw FileError(library.path(),
-                      "has no vector of model " + query.name + " by '" + spec +
-                          "'; 'shape3d library add' of its mesh with this descriptor makes one");
-    }
-  }
-  try {
-    return describe_mesh(*query.mesh, {descriptors::Descriptor::parse(spec)}, settings.threads)
-        .front();
-  } catch (const std::exception& error) {
-    throw FileError(query.name, error.what());
-  }
-}
-
-std::vector<std::int64_t> left_out(const Query& query) {
-  return query.model ? std::vector<std::int64_t>{query.model->id} : std::vector<std::int64_t>{};
-}
-
 struct Searched {
   std::vector<Match> matches;
   std::size_t models = 0;     // that could be found
@@ -130,8 +81,8 @@ Searched search_coarse_to_fine(const SearchArguments& arguments, const ShapeLibr
   Searched result;
   Stopwatch watch;
   const std::string coarse = library.descriptor(arguments.coarse).spec;
-  const Eigen::VectorXd coarse_vector = vector_of(library, query, coarse, settings),
-                        vector = vector_of(library, query, spec, settings);
+  const Eigen::VectorXd coarse_vector = vector_of(library, query, coarse, settings.threads),
+                        vector = vector_of(library, query, spec, settings.threads);
   result.describe_seconds = watch.lap();
   const SearchSet set(library.vectors(coarse), norm_of(arguments));
   result.read_seconds = watch.lap();
@@ -166,7 +117,7 @@ Searched search_all(const SearchArguments& arguments, const ShapeLibrary& librar
                     const Query& query, const std::string& spec, const Settings& settings) {
   Searched result;
   Stopwatch watch;
-  const Eigen::VectorXd vector = vector_of(library, query, spec, settings);
+  const Eigen::VectorXd vector = vector_of(library, query, spec, settings.threads);
   result.describe_seconds = watch.lap();
   const SearchSet set(library.vectors(spec), norm_of(arguments));
   result.read_seconds = watch.lap();
@@ -175,22 +126,10 @@ Searched search_all(const SearchArguments& arguments, const ShapeLibrary& librar
   if (!arguments.weighted) {
     result.matches = set.nearest(vector, count, left_out(query), settings.threads);
   } else {
-    const bool labelled = std::any_of(set.labels().begin(), set.labels().end(),
-                                      [](std::int32_t label) { return label >= 0; });
-    if (!labelled) {
-      throw FileError(library.path(),
-                      "knows no class of a model, which --weighted needs; 'shape3d library add' "
-                      "with --classes or --class-from-folder says them");
-    }
-    const std::vector<double> shares =
-        set.class_probabilities(vector, left_out(query), 10, settings.threads);
-    for (std::size_t c = 0; c < shares.size(); ++c) {
-      if (shares[c] > 0.0) result.classes.emplace_back(set.classes()[c], shares[c]);
-    }
-    std::stable_sort(result.classes.begin(), result.classes.end(),
-                     [](const auto& a, const auto& b) { return a.second > b.second; });
-    result.matches =
-        set.nearest_weighted(vector, count, shares, left_out(query), 0.25, 1.0, settings.threads);
+    WeightedMatches weighted =
+        weighted_matches(set, query, vector, count, library.path(), settings.threads);
+    result.matches = std::move(weighted.matches);
+    result.classes = std::move(weighted.classes);
   }
   result.search_seconds = watch.lap();
   return result;
@@ -241,9 +180,10 @@ void search(const SearchArguments& arguments, const Settings& settings) {
   if (!arguments.sheet.empty()) sheet.emplace(arguments.sheet);
   Progress progress(settings);
   progress.stage("searching " + arguments.library);
+  std::vector<std::string> warnings;
   Query query = arguments.id > 0 ? query_of_id(library, arguments.id)
-                                 : query_of_mesh(library, arguments.mesh, settings);
-  if (query.model) query.class_name = query.model->class_name;
+                                 : query_of_mesh(library, arguments.mesh, warnings);
+  for (const std::string& sentence : warnings) warn(settings, arguments.mesh + ": " + sentence);
   const Searched searched = arguments.coarse.empty()
                                 ? search_all(arguments, library, query, spec, settings)
                                 : search_coarse_to_fine(arguments, library, query, spec, settings);

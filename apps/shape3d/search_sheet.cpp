@@ -10,8 +10,7 @@
 namespace shape3d::apps {
 namespace {
 
-constexpr Color kGreen{0.10, 0.62, 0.22}, kBlue{0.13, 0.36, 0.86}, kRed{0.85, 0.16, 0.14},
-    kGrey{0.62, 0.62, 0.62}, kWhite{1.0, 1.0, 1.0}, kBlack{0.0, 0.0, 0.0};
+constexpr Color kGrey{0.62, 0.62, 0.62}, kWhite{1.0, 1.0, 1.0}, kBlack{0.0, 0.0, 0.0};
 
 constexpr int kFrame = 6, kGap = 14, kLine = 18;
 constexpr int kBox = kThumbnailSize + 2 * kFrame;
@@ -79,7 +78,7 @@ std::string draw_sheet(const ShapeLibrary& library, const Query& query,
   std::vector<Cell> cells;
   std::vector<std::string> paths;
   Cell first;
-  first.frame = kGreen;
+  first.frame = kQueryFrame;
   first.first = query.mesh ? stem(query.name) : stem(query.model->file.path);
   first.second = query.class_name ? printable(*query.class_name) : "class not known";
   first.third = "query";
@@ -90,7 +89,7 @@ std::string draw_sheet(const ShapeLibrary& library, const Query& query,
   for (const Found& entry : found) {
     Cell cell;
     const std::optional<std::string>& name = entry.model.class_name;
-    cell.frame = !name || !query.class_name ? kGrey : *name == *query.class_name ? kBlue : kRed;
+    cell.frame = frame_color(match_kind(query, entry.model));
     cell.first = stem(entry.model.file.path);
     cell.second = name ? printable(*name) : "class not known";
     cell.third = distance_text(entry.match.distance);

@@ -75,6 +75,16 @@ void check_numbers(const SegmentArguments& arguments) {
     throw UsageError("--keep-connected needs --seed-point, a sample of the component to keep");
   if (arguments.nodule && arguments.seed.empty())
     throw UsageError("--nodule needs --seed-point, a sample near the middle of the nodule");
+  const levelset::CalibrationOptions& calibration = arguments.options.calibration;
+  if (!std::isfinite(calibration.scope_constant) || calibration.scope_constant <= 0.0)
+    throw UsageError("--scope-constant " + to_text(calibration.scope_constant) +
+                     ": expected a finite positive number");
+  if (!(calibration.max_scope > 0.0 && calibration.max_scope <= 1.0))
+    throw UsageError("--max-scope " + to_text(calibration.max_scope) +
+                     ": expected a share above 0 and up to 1");
+  for (const double label : arguments.truth_labels) {
+    if (!std::isfinite(label)) throw UsageError("--truth-label: expected finite numbers");
+  }
   const double curvature = arguments.options.evolution.curvature;
   if (!std::isfinite(curvature) || curvature < 0.0)
     throw UsageError("--curvature " + to_text(curvature) +
@@ -134,6 +144,17 @@ void add_evolution_options(CLI::App& command, SegmentArguments& arguments) {
   command.add_flag_callback(
       "--no-calibration", [&options] { options.calibrated = false; },
       "Leave the intensity model as it was estimated");
+  command
+      .add_option("--scope-constant", options.calibration.scope_constant,
+                  "Scope of the calibration per misfit of the model, a share of the log-odds "
+                  "(default 100)")
+      ->type_name("C");
+  command
+      .add_option(
+          "--max-scope", options.calibration.max_scope,
+          "The scope is at most this share: less keeps to boundaries near the one estimated "
+          "(default 0.9)")
+      ->type_name("X");
   command
       .add_option("--curvature", options.evolution.curvature, "Weight of curvature, mm (default 0)")
       ->type_name("E");
@@ -206,9 +227,10 @@ void add_output_options(CLI::App& command, SegmentArguments& arguments) {
   command.add_option("--truth", arguments.truth, "A label map to compare with, of the same size")
       ->type_name("MASK");
   command
-      .add_option("--truth-label", arguments.truth_label,
-                  "The label that counts in it (default: all but 0)")
-      ->type_name("L");
+      .add_option("--truth-label", arguments.truth_labels,
+                  "The labels that count in it, such as 1,2 (default: all but 0)")
+      ->delimiter(',')
+      ->type_name("L,…");
   command
       .add_option("--plot", arguments.plot,
                   "Draw histogram.png, overlap.png and slices.png into this folder")

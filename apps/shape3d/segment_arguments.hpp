@@ -32,7 +32,7 @@ struct SegmentArguments {
   bool keep_connected = false;
   bool nodule = false;
   std::string psi, mesh, truth, plot;
-  double truth_label = 0.0;           ///< 0: all that is not 0.
+  std::vector<double> truth_labels;   ///< Empty: all that is not 0.
   std::vector<std::string> contours;  ///< Pairs of plane and file.
   levelset::SegmentOptions options;
 };

@@ -27,6 +27,12 @@ namespace {
 // Of segment(), with smoothing, and the mask, its measures and ψ beside it.
 constexpr std::uint64_t kBytesPerSample = 24 + 16;
 
+std::string words_of(const std::vector<double>& labels) {
+  std::string words;
+  for (const double label : labels) words += (words.empty() ? "" : " or ") + to_text(label);
+  return words;
+}
+
 class Segmenting {
  public:
   Segmenting(const SegmentArguments& arguments, const Settings& settings)
@@ -125,9 +131,9 @@ class Segmenting {
       tell(arguments_.truth + " lies up to " + rounded(off) + " mm from " + arguments_.volume +
            "; its samples are compared by index");
     }
-    const Mask whole = labelled(truth.view, arguments_.truth_label);
+    const Mask whole = labelled(truth.view, arguments_.truth_labels);
     result_.truth = labelled(zmc::subvolume(truth.view, result_.region.lower, result_.region.upper),
-                             arguments_.truth_label);
+                             arguments_.truth_labels);
     result_.truth->spacing = view.spacing;
     const auto count = [](const Mask& mask) {
       return std::count(mask.samples.begin(), mask.samples.end(), std::uint8_t{1});
@@ -135,9 +141,9 @@ class Segmenting {
     const auto inside = count(*result_.truth), all = count(whole);
     if (all == 0) {
       throw FileError(arguments_.truth,
-                      arguments_.truth_label == 0.0
+                      arguments_.truth_labels.empty()
                           ? "has no sample other than 0; expected an object"
-                          : "has no sample of label " + to_text(arguments_.truth_label));
+                          : "has no sample of label " + words_of(arguments_.truth_labels));
     }
     result_.truth_outside = all - inside;
     if (result_.truth_outside > 0)

@@ -110,20 +110,6 @@ void draw_borders(Raster& raster, const Frame& frame, const std::vector<int>& ce
   }
 }
 
-// Light colors of hues that are far apart for small numbers.
-Color light_color(int group) {
-  if (group < 0) return kWhite;
-  const double hue = std::fmod(0.08 + 0.6180339887498949 * group, 1.0) * 6.0;
-  const double lowest = group % 2 == 0 ? 0.72 : 0.60;
-  Color color{};
-  for (int c = 0; c < 3; ++c) {
-    const double k = std::fmod(hue + 5.0 - 2.0 * c + 6.0, 6.0);
-    const double share = std::clamp(std::min(k, 4.0 - k), 0.0, 1.0);
-    color[static_cast<std::size_t>(c)] = 1.0 - (1.0 - lowest) * share;
-  }
-  return color;
-}
-
 // The text, cut so that it is not wider than `width`.
 std::string fitted(std::string text, int size, int width) {
   if (text_width(text, size) <= width) return text;

@@ -128,7 +128,8 @@ Document::~Document() = default;
 std::vector<std::string> Document::files() const {
   std::vector<std::string> files;
   for (const std::string& path : order_) {
-    const bool open = (volume_ && volume_->path == path) ||
+    const bool open = (volume_ && volume_->path == path) || path == library_ ||
+                      path == collection_map_ ||
                       std::any_of(meshes_.begin(), meshes_.end(),
                                   [&path](const auto& mesh) { return mesh->path == path; });
     if (open && std::find(files.begin(), files.end(), path) == files.end()) files.push_back(path);
@@ -167,12 +168,35 @@ void Document::add_mesh(std::shared_ptr<const OpenMesh> mesh) {
   emit meshes_changed();
 }
 
+void Document::remove_mesh(const std::string& path) {
+  const auto gone = std::remove_if(meshes_.begin(), meshes_.end(),
+                                   [&path](const auto& mesh) { return mesh->path == path; });
+  if (gone == meshes_.end()) return;
+  meshes_.erase(gone, meshes_.end());
+  emit meshes_changed();
+}
+
+void Document::set_library(const std::string& path) {
+  library_ = path;
+  order_.push_back(path);
+  emit collection_changed();
+}
+
+void Document::set_collection_map(const std::string& path) {
+  collection_map_ = path;
+  order_.push_back(path);
+  emit collection_changed();
+}
+
 void Document::close_all() {
   order_.clear();
   meshes_.clear();
   volume_.reset();
+  library_.clear();
+  collection_map_.clear();
   emit meshes_changed();
   emit volume_changed();
+  emit collection_changed();
 }
 
 void Document::set_cursor(const Eigen::Vector3d& lattice) {

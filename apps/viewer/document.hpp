@@ -55,7 +55,14 @@ class Document : public QObject {
   /// Takes data that is already in memory: what a thread of open() or a view has made.
   void set_volume(std::shared_ptr<const OpenVolume> volume);
   void add_mesh(std::shared_ptr<const OpenMesh> mesh);
+  /// Closes one mesh; nothing happens when it is not open.
+  void remove_mesh(const std::string& path);
   void close_all();
+  /// A shape library, and the map of a collection: views read them, by their paths. "": none.
+  [[nodiscard]] const std::string& library() const { return library_; }
+  [[nodiscard]] const std::string& collection_map() const { return collection_map_; }
+  void set_library(const std::string& path);
+  void set_collection_map(const std::string& path);
   /// Files that are being read or wait for it.
   [[nodiscard]] int loading() const { return loading_; }
 
@@ -69,6 +76,7 @@ class Document : public QObject {
  signals:
   void volume_changed();
   void meshes_changed();
+  void collection_changed();  ///< The library or the map is another one.
   void cursor_changed();
   void window_changed();
   void loading_changed();
@@ -84,6 +92,7 @@ class Document : public QObject {
   Window window_;
   int loading_ = 0;
   std::vector<std::string> order_;
+  std::string library_, collection_map_;
   std::unique_ptr<Reader> reader_;
 };
 

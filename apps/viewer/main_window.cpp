@@ -76,6 +76,7 @@ MainWindow::MainWindow(bool remember) : theme_(make_theme(true)), remember_(reme
   };
   connect(&document_, &Document::volume_changed, this, begin_anew);
   connect(&document_, &Document::meshes_changed, this, begin_anew);
+  connect(&document_, &Document::collection_changed, this, begin_anew);
   set_dark(!remember_ || settings().value("dark", true).toBool());
   if (remember_) restoreGeometry(settings().value("geometry").toByteArray());
   update_recent();
@@ -306,8 +307,8 @@ void MainWindow::open(const QString& path) {
       case FileKind::other:
         throw FileError(name,
                         "is no file of a known kind; expected a volume (DICOM, NIfTI, NRRD, "
-                        "MetaImage, VTI), a mesh (.ply, .obj, .off, .stl, .vtp) or a session "
-                        "(.json)");
+                        "MetaImage, VTI), a mesh (.ply, .obj, .off, .stl, .vtp), a shape library "
+                        "(.db), the map of a collection (.model) or a session (.json)");
     }
     note_recent(path);
   } catch (const std::bad_alloc&) {
@@ -336,6 +337,12 @@ void MainWindow::apply(const Session& session) {
   for (const std::string& file : session.files) {
     try {
       // A file that has gone since is an error, and the rest is shown.
+      const auto taker = std::find_if(views_.begin(), views_.end(),
+                                      [&file](const View* view) { return view->takes(file); });
+      if (taker != views_.end()) {
+        (*taker)->open(file);
+        continue;
+      }
       static_cast<void>(kind_of(file));
       document_.open(file);
       reading = true;

@@ -52,7 +52,8 @@ int fail(const std::string& sentence, int status) {
 void add_options(CLI::App& app, Arguments& arguments) {
   app.add_option("FILE", arguments.files,
                  "Volumes (DICOM folder, .nii, .nrrd, .mha, .mhd, .vti), meshes (.ply, .obj, .off, "
-                 ".stl, .vtp), sessions (.json)");
+                 ".stl, .vtp), a shape library (.db), the map of a collection (.model), sessions "
+                 "(.json)");
   app.add_option("--view", arguments.view, "The view in front: volume, surface, segmentation …")
       ->type_name("NAME");
   app.add_flag("--offscreen", arguments.offscreen,

@@ -226,7 +226,7 @@ TEST_CASE("the class-weighted search draws the probable class near", "[library][
   static_cast<void>(collection.good(
       {"library", "add", "b.db", "meshes", "--descriptor", "egi:K=4", "--no-thumbnails"}));
   collection.refuses(1, {"search", "b.db", "--id", "3", "--weighted"},
-                     "b.db: knows no class of a model, which --weighted needs");
+                     "b.db: knows no class of a model, which the class-weighted distance needs");
 }
 
 TEST_CASE("from coarse to fine finds what is on the shortlist", "[library][search]") {

@@ -90,6 +90,15 @@ TEST_CASE("wrong command lines: status 2", "[program][error]") {
   bad.expect(2, {"render", "a.ply", "-o", "a.png", "--color", "red", "--color", "blue"},
              "--color is given 2 times for 1 meshes");
   bad.expect(2, {"render", "a.ply", "-o", "a.png", "--opacity", "2"}, "--opacity");
+  bad.expect(2, {"render", "-o", "a.png"}, "no mesh is named, expected meshes or --sheet DIR");
+  bad.expect(2, {"render", "a.ply", "--sheet", "b", "-o", "a.png"},
+             "expected meshes or --sheet DIR, not both");
+  bad.expect(2, {"render", "--sheet", "b", "-o", "a.png", "--opacity", "0.5"},
+             "--opacity: not used with --sheet");
+  bad.expect(2, {"render", "--sheet", "b", "-o", "a.png", "--color", "red", "--color", "blue"},
+             "--color is given 2 times; a sheet has one color");
+  bad.expect(1, {"render", "--sheet", "none", "-o", "a.png"},
+             "none: cannot be looked through: No such file or directory");
 }
 
 TEST_CASE("arguments that do not fit the volume: status 2", "[program][error]") {

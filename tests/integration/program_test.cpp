@@ -12,6 +12,7 @@
 #include "common/mesh_check.hpp"
 #include "common/mesh_io.hpp"
 #include "common/picture.hpp"
+#include "png_image.hpp"
 #include "program_run.hpp"
 #include "support/test_data.hpp"
 
@@ -459,6 +460,72 @@ TEST_CASE("pictures without a display", "[program][render]") {
   CHECK(extract.status == 1);
   CHECK(listing(folder.path()) ==
         std::vector<std::string>{"b.ply", "b.png", "ball.mhd", "ball.raw", "c.png", "d.png"});
+}
+
+TEST_CASE("a contact sheet shows each mesh of a folder with its name", "[program][render]") {
+  const TemporaryFolder folder;
+  RunOptions options;
+  options.folder = folder.path();
+  const auto spill = [](const std::filesystem::path& path, const std::string& text) {
+    std::ofstream(path) << text;
+  };
+  const std::string tetrahedron =
+      "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  fs::create_directories(folder / "shapes/solids");
+  for (const char* name : {"a.off", "b.off", "solids/c.off", "solids/d.off", "solids/e.off"})
+    spill(folder / "shapes" / name, tetrahedron);
+  spill(folder / "shapes/broken.off", "OFF\n3 1 0\n0 0 0\n");
+  spill(folder / "shapes/notes.txt", "no mesh");
+  const Run run = run_shape3d({"render", "--sheet", "shapes", "-o", "sheet.png", "--color",
+                               "#ff0000", "--json", "sheet.json"},
+                              options);
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  CHECK_THAT(run.err, Contains("warning: shapes/broken.off: "));
+  const auto report = read_json(folder / "sheet.json");
+  CHECK(report["meshes"] == 5);
+  CHECK(report["left_out"].size() == 1);
+  CHECK(report["columns"] == 3);
+  const PngImage image = decode_png(slurp(folder / "sheet.png"));
+  CHECK(image.width == report["width"]);
+  CHECK(image.height == report["height"]);
+  // Five of the six places of two rows are taken, each by something red with black letters above.
+  const auto red_in = [&image](int column, int row) {
+    int red = 0;
+    for (int y = row * image.height / 2; y < (row + 1) * image.height / 2; ++y) {
+      for (int x = column * image.width / 3; x < (column + 1) * image.width / 3; ++x) {
+        const auto& pixel = image.at(x, y);
+        red += pixel[0] > 60 && pixel[1] < 40 && pixel[2] < 40 ? 1 : 0;
+      }
+    }
+    return red;
+  };
+  for (int place = 0; place < 5; ++place) {
+    INFO(place);
+    CHECK(red_in(place % 3, place / 3) > 2000);
+  }
+  CHECK(red_in(2, 1) == 0);
+  CHECK(image.count({0.0, 0.0, 0.0}, 0.3) > 50);
+
+  // The size that is asked for, or a sentence when it is too small.
+  REQUIRE(run_shape3d({"render", "--sheet", "shapes", "-o", "small.png", "--size", "300x240", "-q"},
+                      options)
+              .status == 0);
+  CHECK(decode_png(slurp(folder / "small.png")).width == 300);
+  const Run tiny =
+      run_shape3d({"render", "--sheet", "shapes", "-o", "tiny.png", "--size", "40x40"}, options);
+  CHECK(tiny.status == 1);
+  CHECK_THAT(tiny.err, Contains("is too small for 5 panels"));
+  fs::create_directories(folder / "empty");
+  const Run none = run_shape3d({"render", "--sheet", "empty", "-o", "none.png"}, options);
+  CHECK(none.status == 1);
+  CHECK_THAT(none.err, Contains("empty: holds no mesh, expected files .ply"));
+  spill(folder / "empty/broken.off", "OFF\n3 1 0\n0 0 0\n");
+  const Run broken = run_shape3d({"render", "--sheet", "empty", "-o", "none.png"}, options);
+  CHECK(broken.status == 1);
+  CHECK_THAT(broken.err, Contains("none of which can be drawn; the first: empty/broken.off: "));
+  CHECK_FALSE(fs::exists(folder / "tiny.png"));
+  CHECK_FALSE(fs::exists(folder / "none.png"));
 }
 
 TEST_CASE("an interrupt leaves nothing half-written", "[program][interrupt]") {

@@ -114,6 +114,49 @@ TEST_CASE("segment: a ball, its labels, surface, distance function and report", 
   CHECK_THAT(slurp(folder / "x.svg"), Contains("Front at x = 20") && Contains("<path"));
 }
 
+TEST_CASE("segment: labels of the truth are a list, and the scope limits the calibration",
+          "[segment]") {
+  const TemporaryFolder folder;
+  make_ball(folder);
+  make_volume(
+      folder / "parts.mhd", {40, 36, 30},
+      [](int i, int j, int k) {
+        return true_ball(i, j, k) == 0.0F ? (k < 2 ? 7.0F : 0.0F) : i < 20 ? 1.0F : 3.0F;
+      },
+      kPlace);
+  const auto report = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"segment",   "ball.mhd", "-o",     "l.nrrd",
+                                   "--classes", "2",        "--json", "r.json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Run run = run_in(folder, words);
+    INFO(run.out << run.err);
+    REQUIRE(run.status == 0);
+    return read_json(folder / "r.json");
+  };
+  const auto dice = [](const nlohmann::json& r) { return r["agreement"]["dice"].get<double>(); };
+  const double whole = dice(report({"--truth", "truth.mhd"}));
+  CHECK(dice(report({"--truth", "parts.mhd", "--truth-label", "1,3"})) == whole);
+  CHECK(dice(report({"--truth", "parts.mhd", "--truth-label", "1"})) ==
+        Approx(2.0 / 3).margin(0.05));  // half of the ball
+  CHECK(dice(report({"--truth", "parts.mhd"})) < whole - 0.05);
+
+  // Half the level is -375: the curve stays nearer to it, in λ, the less the scope is.
+  const auto width = [](const nlohmann::json& r) {
+    double least = 0, most = 0;
+    for (const auto& place : r["calibration"]["curve"]) {
+      least = std::min(least, place["lambda"].get<double>());
+      most = std::max(most, place["lambda"].get<double>());
+    }
+    return most - least;
+  };
+  const nlohmann::json wide = report({}), narrow = report({"--max-scope", "0.09"}),
+                       constant = report({"--scope-constant", "1e-9"});
+  CHECK(narrow["calibration"]["scope"].get<double>() == Approx(0.09));
+  CHECK(width(narrow) < 0.2 * width(wide));
+  CHECK(constant["calibration"]["scope"].get<double>() < 1e-6);
+  CHECK(width(constant) < 1e-3 * width(wide));
+}
+
 TEST_CASE("segment: a region by indices and by millimetres is the same, labels are of full size",
           "[segment]") {
   const TemporaryFolder folder;
@@ -317,6 +360,11 @@ TEST_CASE("segment: wrong command lines", "[segment][error]") {
   bad.expect(2, {"--inside", "grey"}, "--inside grey: expected bright, dark or numbers of classes");
   bad.expect(2, {"--inside", "0,,1"}, "--inside 0,,1: expected");
   bad.expect(2, {"--curvature", "-1"}, "--curvature -1: expected a finite number of millimetres");
+  bad.expect(2, {"--scope-constant", "0"}, "--scope-constant 0: expected a finite positive number");
+  bad.expect(2, {"--max-scope", "0"}, "--max-scope 0: expected a share above 0 and up to 1");
+  bad.expect(2, {"--max-scope", "1.5"}, "--max-scope 1.5: expected a share above 0 and up to 1");
+  bad.expect(2, {"--truth", "truth.mhd", "--truth-label", "1,nan"},
+             "--truth-label: expected finite numbers");
   bad.expect(2, {"--method", "magic"}, "--method");
   bad.expect(2, {"--psi", "p.mha"}, "--psi p.mha: expected a name that ends in .nrrd");
   bad.expect(2, {"--mesh", "m.xyz"}, "--mesh m.xyz: unknown extension '.xyz'");
@@ -340,6 +388,8 @@ TEST_CASE("segment: volumes that hold no object to find", "[segment][error]") {
   bad.expect(1, {"--truth", "empty.mhd"}, "empty.mhd: has no sample other than 0");
   bad.expect(1, {"--truth", "truth.mhd", "--truth-label", "4"},
              "truth.mhd: has no sample of label 4");
+  bad.expect(1, {"--truth", "truth.mhd", "--truth-label", "4,7"},
+             "truth.mhd: has no sample of label 4 or 7");
   bad.expect(1, {"--classes", "2", "--seed-point", "1,1,1", "--keep-connected"},
              "ball.mhd: nothing is inside within 3.6 mm of the seed point");
   bad.expect(1, {}, "none.mhd: ", "none.mhd");

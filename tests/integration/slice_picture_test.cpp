@@ -95,6 +95,27 @@ TEST_CASE("the outline lies where the intensities change, in its colour, with a 
   CHECK(std::min(shorter[0].front()[1], shorter[0].back()[1]) == Approx(4));
 }
 
+TEST_CASE("points that coincide do not take the rest of the outline with them", "[slices]") {
+  const Halves halves;
+  const auto red = [&](const SliceOutline& outline) {
+    SlicePanel panel = panel_of(halves);
+    panel.outlines = {outline};
+    return drawn({panel}).count(kRed, 0.1);
+  };
+  const SliceOutline square{"", kRed, {{{2, 4}, {12, 4}, {12, 18}, {2, 18}, {2, 4}}}};
+  // Each corner four times: twice the same place, and as near as zero crossings at a sample are.
+  SliceOutline repeated = square;
+  repeated.lines[0].clear();
+  for (const auto& [x, y] : square.lines[0]) {
+    for (const double off : {0.0, 0.0, 1e-7, 1e-4}) repeated.lines[0].push_back({x + off, y + off});
+  }
+  const int whole = red(square);
+  CHECK(whole > 1000);
+  CHECK(red(repeated) == Approx(whole).epsilon(0.02));
+  // A loop smaller than a pixel is still seen.
+  CHECK(red({"", kRed, {{{5, 5}, {5, 5}, {5.0001, 5}, {5, 5}}}}) > 0);
+}
+
 TEST_CASE("what slices cannot be drawn of is refused", "[slices]") {
   const Halves halves;
   const auto refused = [](const std::vector<SlicePanel>& panels, const SlicePage& page,

@@ -1,5 +1,8 @@
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include <catch2/catch.hpp>
 
@@ -13,7 +16,8 @@ using Catch::Matchers::StartsWith;
 namespace fs = std::filesystem;
 
 fs::path fresh_folder() {
-  const fs::path folder = fs::temp_directory_path() / "shape3d-viewer-program-test";
+  const fs::path folder =
+      fs::temp_directory_path() / ("shape3d-viewer-program-test-" + std::to_string(::getpid()));
   fs::remove_all(folder);
   fs::create_directories(folder);
   make_volume(folder / "ball.mhd", {32, 32, 32}, ball(32, 10.0));

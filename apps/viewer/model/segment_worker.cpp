@@ -125,7 +125,7 @@ struct SegmentWorker::State {
       throw FileError(wish.truth, "has " + to_text(volume.view.dims) + " samples; expected " +
                                       to_text(wish.volume->view.dims) + ", as the volume has");
     }
-    Mask mask = labelled(zmc::subvolume(volume.view, wish.lower, wish.upper), 0.0);
+    Mask mask = labelled(zmc::subvolume(volume.view, wish.lower, wish.upper), {});
     mask.spacing = wish.volume->view.spacing;
     if (std::find(mask.samples.begin(), mask.samples.end(), std::uint8_t{1}) == mask.samples.end())
       throw FileError(wish.truth, "has no sample other than 0 in the region; expected an object");

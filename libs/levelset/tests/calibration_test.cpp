@@ -233,6 +233,36 @@ TEST_CASE("a model of one side is not calibrated, and a caller can cancel", "[le
   CHECK(calls == 3);
 }
 
+TEST_CASE("S over evenly spread bars is S over all samples, to a hundredth", "[levelset]") {
+  // 128 × 256 × 96 samples: tubes along x and balls in noise; a quarter of the bars is summed.
+  std::mt19937 random(11);
+  const Grid grid{{128, 256, 96}, {0.7, 0.7, 1.2}};
+  const auto samples = sample(grid, [&](double x, double y, double z) {
+    const double tube = 6 - std::hypot(std::remainder(y, 30), std::remainder(z, 30));
+    const double ball = 9 - std::hypot(std::remainder(x, 45), std::remainder(y - 15, 30),
+                                       std::remainder(z - 15, 30));
+    return edge(std::max(tube, ball), 1.0) + static_cast<double>(random() % 100);
+  });
+  const ImageView view = make_view(samples.data(), grid.dims, grid.spacing);
+  const Field g = gradient_magnitude(view);
+  CalibrationOptions options;
+  options.refinements = 1;
+  options.max_samples = 0;
+  const Calibration all = calibrate(view, g, model(), 1.0, options);
+  options.max_samples = grid.size() / 4;
+  const Calibration part = calibrate(view, g, model(), 1.0, options);
+  // The first seven offsets are the same; those after them go to the same best one.
+  REQUIRE(part.curve.size() == all.curve.size());
+  bool differs = false;
+  for (std::size_t n = 0; n < all.curve.size(); ++n) {
+    CHECK(part.curve[n].overlap == Approx(all.curve[n].overlap).margin(0.01));
+    differs = differs || part.curve[n].overlap != all.curve[n].overlap;
+  }
+  CHECK(differs);  // it is a part that was summed
+  REQUIRE(part.levels.size() == 1);
+  CHECK(part.levels[0] == Approx(all.levels[0]).margin(10));  // of classes 1000 apart
+}
+
 TEST_CASE("threads do not change the calibration", "[levelset]") {
   std::mt19937 random(3);
   const Grid grid{{50, 40, 30}, {0.7, 0.7, 1.2}};

@@ -415,6 +415,12 @@ TEST_CASE("progress rises to one and can cancel", "[zmc][extract]") {
     options.progress = [&](double) { return calls++ != stop; };
     const Status status = extract(view, 0.0, options, mesh);
     INFO("cancelled at call " << stop);
+    // Threads may share the work in fewer reports than before; at least one is always made.
+    if (calls <= stop) {
+      CHECK(stop > 0);
+      CHECK(status == Status::ok);
+      continue;
+    }
     CHECK(status == Status::cancelled);
     CHECK(mesh.vertex_count() == 0);
     CHECK(mesh.triangle_count() == 0);

@@ -5,8 +5,8 @@
 #include <shape3d/learning/som_maps.hpp>
 #include <shape3d/learning/svm.hpp>
 
-#include "common/byte_source.hpp"
-#include "common/error.hpp"
+#include "byte_source.hpp"
+#include "error.hpp"
 
 namespace shape3d::apps {
 

@@ -4,8 +4,6 @@
 
 #include <shape3d/learning/model_file.hpp>
 
-#include "common/output_file.hpp"
-
 namespace shape3d::apps {
 
 /// Extension of models.
