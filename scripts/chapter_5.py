@@ -115,7 +115,7 @@ about the rate of the larger class.
 
 ![Correct classification rates](../images/chapter-5-correct-classification.png)
 
-Bars in the order of the table. Pairs of 45 numbers on the same models, McNemar's exact test:
+Pairs of 45 numbers on the same models, McNemar's exact test:
 
 All seven classes:
 

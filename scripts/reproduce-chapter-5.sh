@@ -41,7 +41,7 @@ evaluate coarse3 --classes coarse3 --baseline --svm --folds 5
 evaluate weighted --classes coarse2 --descriptor hsh:K=8,unit=yes@L2 --svm --weighted --metric fusion \
   --folds 5
 evaluate leave-one-out --classes coarse2 --descriptor hsh:K=8,unit=yes@L2 \
-  --descriptor csm:R=5,K=8,weighted=yes,unit=yes@L2 --descriptor csm:R=5,K=8,fill=binary@L2 \
+  --descriptor csm:R=5,K=8,weighted=yes,unit=yes@L2 \
   --svm --metric fusion --leave-one-out
 evaluate pose --classes coarse2 --metric fusion \
   --descriptor hsh:map=two_sided,K=8,fill=binary@L2 \

@@ -1,6 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
+#include <cstdio>
 
 #include "common/chart.hpp"
 #include "evaluate_report.hpp"
@@ -19,6 +20,7 @@ constexpr std::array<Color, 10> kColors{{{0.85, 0.15, 0.15},
                                          {0.35, 0.35, 0.35},
                                          {0.60, 0.65, 0.15}}};
 constexpr std::size_t kMostClassCharts = 12;
+constexpr double kLegendEnd = 1.65;
 
 ChartAxis share_axis(const std::string& title) {
   ChartAxis axis;
@@ -32,13 +34,26 @@ ChartAxis share_axis(const std::string& title) {
   return axis;
 }
 
-// The strongest methods last: their order in tables; at most as many as there are colors, those
-// that combine descriptors first.
+// At most as many as there are colors: the last method, the last that is not weighted by classes,
+// the baselines, and others from the end of the table.
 std::vector<const MethodResult*> drawn_methods(const GroupResult& group) {
   std::vector<const MethodResult*> methods;
-  for (auto one = group.retrieval.rbegin(); one != group.retrieval.rend(); ++one) {
-    if (methods.size() < kColors.size()) methods.push_back(&*one);
+  const auto take = [&](const MethodResult& one) {
+    if (methods.size() < kColors.size() &&
+        std::find(methods.begin(), methods.end(), &one) == methods.end()) {
+      methods.push_back(&one);
+    }
+  };
+  const auto& all = group.retrieval;
+  take(all.back());
+  const auto unweighted = std::find_if(all.rbegin(), all.rend(), [](const MethodResult& one) {
+    return !one.method->descriptor && one.method->name.find("weighted") == std::string::npos;
+  });
+  if (unweighted != all.rend()) take(*unweighted);
+  for (const MethodResult& one : all) {
+    if (one.method->baseline) take(one);
   }
+  std::for_each(all.rbegin(), all.rend(), take);
   return methods;
 }
 
@@ -59,6 +74,7 @@ Chart curves_chart(const GroupResult& group, const std::string& title) {
   Chart chart;
   chart.title = title;
   chart.x = share_axis("recall");
+  chart.x.range = std::array<double, 2>{0.0, kLegendEnd};  // the legend stands beside the curves
   chart.y = share_axis("precision");
   const auto methods = drawn_methods(group);
   for (std::size_t i = 0; i < methods.size(); ++i) {
@@ -91,40 +107,62 @@ std::vector<Chart> class_charts(const GroupResult& group, const Evaluation& eval
       chart.series.push_back(curve(methods[i]->method->name, methods[i]->retrieval.classes[c], i,
                                    methods[i]->method->baseline));
     }
-    chart.legend = charts.empty() ? LegendPlace::top_right : LegendPlace::none;
+    chart.legend = LegendPlace::none;
     charts.push_back(std::move(chart));
   }
+  if (charts.empty()) return charts;
+  Chart legend = charts.front();  // what the colors are, without the curves
+  legend.title = "methods";
+  legend.legend = LegendPlace::top_left;
+  for (ChartSeries& series : legend.series) series.points.clear();
+  charts.push_back(std::move(legend));
   return charts;
 }
 
-// Bars of each classifier, those of the groups side by side.
-Chart rate_chart(const Evaluation& evaluation) {
-  Chart chart;
-  chart.title = "Correct classification rate";
-  chart.y = share_axis("rate");
-  const auto groups = static_cast<double>(evaluation.groups.size());
-  for (std::size_t g = 0; g < evaluation.groups.size(); ++g) {
-    const GroupResult& group = evaluation.groups[g];
-    ChartSeries bars;
-    bars.kind = ChartSeries::Kind::bars;
-    bars.label = group.group.name;
-    bars.color = kColors[g + 1];
-    bars.bar_width = 0.8 / groups;
-    for (std::size_t i = 0; i < group.classification.size(); ++i) {
-      bars.points.push_back(
-          {static_cast<double>(i) + (static_cast<double>(g) + 0.5) / groups * 0.8 - 0.4,
-           group.classification[i].confusion.correct_rate()});
-    }
-    chart.series.push_back(std::move(bars));
-  }
+// Bars of each classifier from the left, those of the groups below each other.
+Raster rate_picture(const Evaluation& evaluation) {
+  constexpr int kText = 18, kBar = 18, kGap = 14, kHead = 90, kScale = 600;
   const auto& classifiers = evaluation.groups.front().classification;
-  chart.x.range = std::array<double, 2>{-0.6, static_cast<double>(classifiers.size()) - 0.4};
-  for (std::size_t i = 0; i < classifiers.size(); ++i) {
-    chart.x.ticks.emplace_back(static_cast<double>(i), std::to_string(i + 1));
+  const auto groups = static_cast<int>(evaluation.groups.size());
+  int label = 0;
+  for (const ClassifierResult& one : classifiers) {
+    label = std::max(label, text_width(one.result.name, kText));
   }
-  chart.x.title = "as in the table";
-  chart.legend = LegendPlace::top_left;
-  return chart;
+  label += 30;
+  const int row = groups * kBar + kGap, rows = static_cast<int>(classifiers.size());
+  Raster raster = make_raster(label + kScale + 90, kHead + rows * row + 50, {1.0, 1.0, 1.0});
+  draw_text(raster, "Correct classification rate, percent", raster.width / 2, 32, 22,
+            TextAlign::centre, {0, 0, 0}, true);
+  int legend = label;
+  for (int g = 0; g < groups; ++g) {
+    const std::string& name = evaluation.groups[static_cast<std::size_t>(g)].group.name;
+    fill(raster, legend, kHead - 34, 14, 14, kColors[static_cast<std::size_t>(g) + 1]);
+    draw_text(raster, name, legend + 22, kHead - 21, 16, TextAlign::left);
+    legend += 60 + text_width(name, 16);
+  }
+  for (int tenth = 0; tenth <= 10; tenth += 2) {
+    const int x = label + kScale * tenth / 10;
+    fill(raster, x, kHead - 6, 1, rows * row + 10, {0.8, 0.8, 0.8});
+    draw_text(raster, std::to_string(10 * tenth), x, kHead + rows * row + 26, 16,
+              TextAlign::centre);
+  }
+  for (int i = 0; i < rows; ++i) {
+    const int top = kHead + i * row;
+    draw_text(raster, classifiers[static_cast<std::size_t>(i)].result.name, label - 12,
+              top + groups * kBar / 2 + kText / 3, kText, TextAlign::right);
+    for (int g = 0; g < groups; ++g) {
+      const double rate = evaluation.groups[static_cast<std::size_t>(g)]
+                              .classification[static_cast<std::size_t>(i)]
+                              .confusion.correct_rate();
+      const int width = static_cast<int>(std::lround(rate * kScale));
+      fill(raster, label, top + g * kBar, std::max(width, 1), kBar - 2,
+           kColors[static_cast<std::size_t>(g) + 1]);
+      std::array<char, 16> number{};
+      std::snprintf(number.data(), number.size(), "%.1f", 100.0 * rate);
+      draw_text(raster, number.data(), label + width + 8, top + g * kBar + 14, 15, TextAlign::left);
+    }
+  }
+  return raster;
 }
 
 Raster confusion_picture(const ClassifierResult& one, const Evaluation& evaluation) {
@@ -181,7 +219,7 @@ std::vector<NamedPicture> draw_evaluation(const Evaluation& evaluation) {
     charts.push_back(curves_chart(group, "Precision and recall, " + group.group.name));
   }
   ChartPage page;
-  page.width = 900;
+  page.width = 1100;
   page.columns = static_cast<int>(charts.size());
   pictures.push_back({"precision-recall.png", draw_charts(charts, page)});
   const std::vector<Chart> classes = class_charts(evaluation.groups.front(), evaluation);
@@ -192,7 +230,7 @@ std::vector<NamedPicture> draw_evaluation(const Evaluation& evaluation) {
     pictures.push_back({"precision-recall-classes.png", draw_charts(classes, page)});
   }
   if (!evaluation.groups.front().classification.empty()) {
-    pictures.push_back({"correct-classification.png", draw_charts({rate_chart(evaluation)})});
+    pictures.push_back({"correct-classification.png", to_png(rate_picture(evaluation))});
     pictures.push_back(
         {"confusion.png",
          to_png(confusion_picture(evaluation.groups.front().classification.back(), evaluation))});
