@@ -383,6 +383,10 @@ void SegmentationView::set_state(const nlohmann::json& state) {
 }
 
 void SegmentationView::set_parameters(const nlohmann::json& state) {
+  if (state.contains("cursor")) {  // where a ball starts; in sessions it is the volume view's
+    const auto place = state["cursor"].get<std::array<double, 3>>();
+    document_.set_cursor({place[0], place[1], place[2]});
+  }
   if (state.contains("roi") && volume_) {
     const auto ends = state["roi"].get<std::array<std::int64_t, 6>>();
     VoxelBox box;
