@@ -241,7 +241,9 @@ void SegmentationView::cancel() {
 bool SegmentationView::busy() const { return worker_ != nullptr; }
 
 void SegmentationView::take(const SegmentUpdate& update) {
-  panel_->stage->setText(QString::fromStdString(update.stage) + " …");
+  // The number of the iteration stays until the next picture of the front.
+  if (frames_ == 0 || update.stage != "evolution")
+    panel_->stage->setText(QString::fromStdString(update.stage) + " …");
   if (update.share >= 0.0) panel_->progress->setValue(static_cast<int>(1000 * update.share));
   if (update.front) {
     ++frames_;
