@@ -141,7 +141,7 @@ Precision at recall 0.1 in the dissertation, on the other half: random 20, CSM 2
 
 ![Set 2](../images/chapter-5-precision-recall.png)
 
-Curves of each class:
+Curves of each class, in the same colours:
 
 ![Classes of set 2](../images/chapter-5-precision-recall-classes.png)
 
