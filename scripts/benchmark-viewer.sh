@@ -31,7 +31,7 @@ $table
   samples), its drawing, and its contours on three slices.
 - Turning: mouse events, each with its picture on the screen; a surface of about 40,000 triangles, made
   by clustering vertices after the extraction, stands in for the full one. Medians.
-- Memory is the resident size. Before anything is open it is that of the libraries (Qt, VTK, and LLVM, which
+- Memory is the resident size, 1.5 s after the surface was drawn. Before anything is open it is that of the libraries (Qt, VTK, and LLVM, which
   the software renderer compiles shaders with) and of the window. The renderer's own copy of the surface,
   which a graphics card would hold, counts as the program's, too.
 END

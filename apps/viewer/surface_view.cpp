@@ -21,6 +21,7 @@
 
 #include "document.hpp"
 #include "four_up.hpp"
+#include "model/heap.hpp"
 #include "model/isovalues.hpp"
 #include "model/surface_data.hpp"
 #include "scene_widget.hpp"
@@ -32,6 +33,7 @@ namespace shape3d::apps::viewer {
 namespace {
 
 constexpr int kSliderSteps = 1000;
+constexpr int kTidy = 1000;   // ms after a full surface, when drawing has freed what it needed
 constexpr int kSettle = 250;  // ms without a change of the value before the full surface is made
 
 }  // namespace
@@ -41,6 +43,10 @@ SurfaceView::SurfaceView(Document& document)
   settle_ = new QTimer(this);
   settle_->setSingleShot(true);
   settle_->setInterval(kSettle);
+  tidy_ = new QTimer(this);
+  tidy_->setSingleShot(true);
+  tidy_->setInterval(kTidy);
+  connect(tidy_, &QTimer::timeout, this, [] { trim_heap(); });
   make_panel();
   make_shortcuts();
   four_up_->set_planes_visible(false);
@@ -319,6 +325,7 @@ void SurfaceView::take(IsoResult result) {
     emit busy_changed();
     return;
   }
+  if (result.stage != IsoStage::coarse) tidy_->start();
   if (result.stage == IsoStage::detail) {
     if (result.wish == item->newest && item->shown.stage == IsoStage::full && item->shown.data)
       item->surface->set_geometry(item->shown.data, result.data);
