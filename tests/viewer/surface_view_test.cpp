@@ -220,6 +220,8 @@ TEST_CASE("a colour that is chosen is that of the surface and its contours", "[v
   const QColor middle = scene.pixelColor(scene.width() / 2, scene.height() / 2);
   CHECK(middle.green() > middle.red() + 60);
   CHECK(middle.green() > middle.blue() + 60);
+  shown.window().activateWindow();  // without a window manager the dialog leaves no window active
+  REQUIRE(QTest::qWaitForWindowActive(&shown.window()));
   QTest::keyClick(&shown.window(), Qt::Key_Z, Qt::ControlModifier);
   REQUIRE(shown.settle());
   CHECK(count_color(WindowFixture::grab(axial), green, 30) == 0);
