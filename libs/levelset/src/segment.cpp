@@ -117,7 +117,13 @@ class Pipeline {
     if (!(result_.histogram.minimum < result_.histogram.maximum))
       return end(Status::constant_image);
     const Timer timer(result_.timings.mixture);
-    result_.fit = fit_mixture(result_.histogram, options_.mixture);
+    if (options_.known_mixture.size() > 0) {
+      result_.fit.mixture = options_.known_mixture;
+      result_.fit.stop = MixtureStop::given;
+      result_.fit.misfit = misfit(result_.histogram, result_.fit.mixture);
+    } else {
+      result_.fit = fit_mixture(result_.histogram, options_.mixture);
+    }
     if (result_.fit.stop == MixtureStop::too_few_bins) return end(Status::too_few_bins);
     result_.model = make_intensity_model(result_.fit.mixture, options_.inside);
     if (!result_.model.two_sided()) return end(Status::one_sided);

@@ -22,6 +22,8 @@ namespace shape3d::levelset {
 struct SegmentOptions {
   HistogramOptions histogram;
   MixtureOptions mixture;
+  /// When it has classes: taken in place of an estimate, for example local_mixture().
+  GaussianMixture known_mixture;
   InsideOptions inside;
   double sigma = 0.0;  ///< σ of the gradient, mm; 0: one spacing along each axis.
   /// σ of a Gaussian that the intensities are smoothed with first, in voxels (of each axis); 0:
