@@ -128,9 +128,9 @@ def part_nodules():
             for method, more in (("nodule", ["--nodule", *region]),
                                  ("sphere", ["--nodule", "--radius", f"{nodule['radius']:.2f}"]),
                                  ("connected", ["--keep-connected", "--classes", "2", *region])):
-                seed = ",".join(f"{c:.2f}" for c in nodule["centre"])
+                middle = ",".join(f"{c:.2f}" for c in nodule["centre"])
                 try:
-                    _, path = segment(image, "--seed-point", seed, *more, name=name)
+                    _, path = segment(image, "--seed-point", middle, *more, name=name)
                 except RuntimeError as error:
                     if "nothing is inside" not in str(error):
                         raise
