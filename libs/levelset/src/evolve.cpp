@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "forecast.hpp"
 #include "halving.hpp"
@@ -51,6 +52,9 @@ void check(const Grid& grid, const Field& psi, const Field& advance, const Field
   if (!(psi <= 0.0F).any()) detail::refuse("psi", "positive everywhere", "a node inside");
 }
 
+/// How much longer steps may be where F is small.
+constexpr float kLocalSteps = 4.0F;
+
 /// |κ| is cut at this, 1/mm.
 double max_curvature(const Grid& grid) { return 2.0 / grid.spacing.minCoeff(); }
 
@@ -87,8 +91,8 @@ class Solver {
   /// ψ at rest, the front moved on coarser grids first.
   Field rest(const Problem& problem, const Field& psi) {
     if (problem.level == levels_) return move(problem, psi);
-    const Field refined = coarse_start(problem, psi);
-    return move(problem, refined.size() > 0 ? refined : psi);
+    Field refined = coarse_start(problem, psi);
+    return move(problem, refined.size() > 0 ? std::move(refined) : psi);
   }
 
   /// ψ after the front came to rest on the grid of half the resolution; empty when there is none.
@@ -97,21 +101,27 @@ class Solver {
     const Field before = halving.restrict_front(psi, threads_);
     if (!(before <= 0.0F).any()) return {};
     // Where curvature may outweigh F_A the front stays. Elsewhere it changes neither the sign of F
-    // nor how far the front comes, and is left out.
+    // nor how far the front comes, and is left out. A front slower than the tolerance is at rest.
     const auto bound = static_cast<float>(problem.curvature * max_curvature(problem.grid));
-    const Field speed = halving.restrict_speed(problem.advance, problem.factor, bound, threads_);
+    const detail::Drive drive = detail::drive_of(problem.advance, problem.factor, bound,
+                                                 static_cast<float>(options_.tolerance), threads_);
+    const Field speed = halving.restrict_speed(drive, threads_);
+    const auto prolong = [&](const Field& coarse) {
+      return halving.prolong(psi, before, coarse, problem.advance, drive,
+                             options_.border == Border::outside, threads_);
+    };
     const auto lift = [&](const Field& coarse) {
-      const Field fine = halving.prolong(psi, before, coarse, threads_);
+      const Field fine = prolong(coarse);
       return problem.lift ? problem.lift(fine) : fine;
     };
     const Field none;
     const Field after = rest({halving.coarse(), speed, none, 0.0, problem.level + 1,
                               problem.cell * halving.block(), lift},
                              before);
-    return halving.prolong(psi, before, after, threads_);
+    return prolong(after);
   }
 
-  Field move(const Problem& problem, const Field& psi);
+  Field move(const Problem& problem, Field psi);
   bool report(const Problem& problem, const detail::NarrowBand& band);
 
   const EvolveOptions& options_;
@@ -141,7 +151,7 @@ bool Solver::report(const Problem& problem, const detail::NarrowBand& band) {
 }
 
 /// ψ at rest on one grid.
-Field Solver::move(const Problem& problem, const Field& psi) {
+Field Solver::move(const Problem& problem, Field psi) {
   const Grid& grid = problem.grid;
   detail::Lattice lattice(grid);
   if (options_.border == Border::outside) {
@@ -167,11 +177,15 @@ Field Solver::move(const Problem& problem, const Field& psi) {
   const double reach = options_.redistance_interval * options_.cfl / std::sqrt(square);
   // Curvature looks at more nodes, and over more steps.
   const double margin = epsilon > 0.0 ? 1.5 : 1.0;
-  detail::NarrowBand band(lattice, psi, problem.advance, k, limit, margin * reach, threads_);
+  detail::NarrowBand band(lattice, std::move(psi), problem.advance, k, limit, margin * reach,
+                          threads_);
   detail::Step step;
   step.limit = limit;
   step.curvature = static_cast<float>(epsilon);
   step.max_curvature = static_cast<float>(max_curvature(grid));
+  // After a coarse start time means nothing any more: only where the front rests does, and that
+  // does not depend on the length of the steps, which may differ from node to node.
+  if (levels_ > 0 && problem.level == 0 && epsilon == 0.0) step.gain = kLocalSteps;
   if (epsilon > 0.0) {
     step.term = options_.curvature_kind == Curvature::mean ? detail::CurvatureTerm::mean
                                                            : detail::CurvatureTerm::minimal;
@@ -185,11 +199,13 @@ Field Solver::move(const Problem& problem, const Field& psi) {
   while (!ended_) {
     const double rate = band.max_speed() * std::sqrt(square) + 2.0 * epsilon * max_factor * square;
     const bool still = !(rate > 0.0);
+    step.most = band.max_speed();
     step.dt = still ? 0.0F : static_cast<float>(options_.cfl / rate);
 
     ++statistics_.iteration;
     statistics_.level = problem.level;
     statistics_.active_tiles = band.active_tiles();
+    statistics_.computed_nodes = band.computed_nodes();
     statistics_.step = step.dt;
     statistics_.time += step.dt;
     statistics_.crossed = band.advance(step) * problem.cell;
@@ -198,7 +214,8 @@ Field Solver::move(const Problem& problem, const Field& psi) {
     const bool last = statistics_.iteration == options_.max_iterations || still;
     if (last || travelled >= 0.999 * reach) {
       const detail::NarrowBand::Motion motion =
-          band.redistance(options_.tolerance * since_redistance);
+          band.redistance(static_cast<double>(problem.level > 0 ? 5.0F : step.gain) *
+                          options_.tolerance * since_redistance);
       statistics_.speed = since_redistance > 0.0 ? motion.mean / since_redistance : 0.0;
       statistics_.front_nodes = motion.nodes;
       since_redistance = travelled = 0.0;

@@ -16,7 +16,34 @@ bool can_halve(const Grid& grid, std::size_t axis) {
          grid.spacing[static_cast<Eigen::Index>(axis)] <= 1.5 * grid.spacing.minCoeff();
 }
 
+/// `after` is `sides` with the nodes changed that are driven to the side of one of their
+/// neighbours.
+void push_row(const std::int8_t* drive, const std::int8_t* sides,
+              const std::int8_t* const beside[4], std::int64_t count, std::int8_t* after) {
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::int8_t d = drive[i];
+    const bool there = (sides[i - 1] == d) | (sides[i + 1] == d) | (beside[0][i] == d) |
+                       (beside[1][i] == d) | (beside[2][i] == d) | (beside[3][i] == d);
+    after[i] = there && d != 0 ? d : sides[i];
+  }
+}
+
 }  // namespace
+
+Drive drive_of(const Field& advance, const Field& factor, float bound, float least, int threads) {
+  Drive drive(static_cast<std::size_t>(advance.size()));
+  constexpr std::int64_t kPart = 1 << 16;
+  parallel_for((advance.size() + kPart - 1) / kPart, threads, [&](std::int64_t part) {
+    const std::int64_t end = std::min<std::int64_t>((part + 1) * kPart, advance.size());
+    for (std::int64_t n = part * kPart; n < end; ++n) {
+      const float f = advance[n];
+      const float limit = std::max(factor.size() > 0 ? bound * factor[n] : bound, least);
+      drive[static_cast<std::size_t>(n)] =
+          static_cast<std::int8_t>((f < -limit ? 1 : 0) - (f > limit ? 1 : 0));
+    }
+  });
+  return drive;
+}
 
 bool Halving::possible(const Grid& grid) {
   return can_halve(grid, 0) || can_halve(grid, 1) || can_halve(grid, 2);
@@ -66,63 +93,81 @@ Field Halving::restrict_front(const Field& psi, int threads) const {
   return result;
 }
 
-Field Halving::restrict_speed(const Field& advance, const Field& factor, float bound,
-                              int threads) const {
+Field Halving::restrict_speed(const Drive& drive, int threads) const {
   Field result(coarse_.size());
   for_blocks(threads, [&](std::int64_t at, const std::int64_t* rows, int count) {
     for (std::int64_t i = 0; i < coarse_.dims[0]; ++i) {
       const std::int64_t last = std::min((i + 1) * factor_[0], fine_.dims[0]);
-      float sum = 0.0F;
-      int nodes = 0, rising = 0, falling = 0;
+      int nodes = 0, driven = 0;
       for (int r = 0; r < count; ++r) {
-        for (std::int64_t x = i * factor_[0]; x < last; ++x, ++nodes) {
-          const float f = advance[rows[r] + x];
-          const float least = factor.size() > 0 ? bound * factor[rows[r] + x] : bound;
-          sum += f;
-          rising += f > least ? 1 : 0;
-          falling += f < -least ? 1 : 0;
-        }
+        for (std::int64_t x = i * factor_[0]; x < last; ++x, ++nodes)
+          driven += drive[static_cast<std::size_t>(rows[r] + x)];
       }
-      const bool moves = rising == nodes || falling == nodes;
-      result[at + i] = moves ? sum / static_cast<float>(nodes) : 0.0F;
+      result[at + i] = driven == nodes ? -1.0F : (driven == -nodes ? 1.0F : 0.0F);
     }
   });
   return result;
 }
 
-Field Halving::prolong(const Field& psi, const Field& before, const Field& after,
-                       int threads) const {
-  // Blocks that changed sides (1), and those beside them (2).
-  std::vector<char> mark(static_cast<std::size_t>(coarse_.size()));
-  for (Eigen::Index n = 0; n < after.size(); ++n)
-    mark[static_cast<std::size_t>(n)] = (before[n] <= 0.0F) != (after[n] <= 0.0F) ? 1 : 0;
-  const std::vector<char> changed = mark;
-  parallel_for(coarse_.dims[2], threads, [&](std::int64_t k) {
-    for (std::int64_t j = 0; j < coarse_.dims[1]; ++j) {
-      for (std::int64_t i = 0; i < coarse_.dims[0]; ++i) {
-        const std::int64_t at = coarse_.index(i, j, k);
-        if (changed[at] != 0) continue;
-        const auto is_changed = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
-          return x >= 0 && x < coarse_.dims[0] && y >= 0 && y < coarse_.dims[1] && z >= 0 &&
-                 z < coarse_.dims[2] && changed[coarse_.index(x, y, z)] != 0;
-        };
-        if (is_changed(i - 1, j, k) || is_changed(i + 1, j, k) || is_changed(i, j - 1, k) ||
-            is_changed(i, j + 1, k) || is_changed(i, j, k - 1) || is_changed(i, j, k + 1))
-          mark[at] = 2;
+/// Two passes of push_row() over all rows.
+void Halving::push(const Drive& drive, bool outside, int threads,
+                   std::vector<std::int8_t>& sides) const {
+  const std::int64_t nx = fine_.dims[0], ny = fine_.dims[1], nz = fine_.dims[2];
+  std::vector<std::int8_t> after(sides.size());
+  for (int pass = 0; pass < 2; ++pass) {
+    parallel_for(nz, threads, [&](std::int64_t k) {
+      // Beyond the border: outside, or no side at all.
+      const std::int8_t beyond = outside ? 1 : 2;
+      const std::vector<std::int8_t> none(static_cast<std::size_t>(nx), beyond);
+      std::vector<std::int8_t> row(static_cast<std::size_t>(nx + 2), beyond);
+      for (std::int64_t j = 0; j < ny; ++j) {
+        const std::int64_t at = fine_.index(0, j, k);
+        std::copy_n(sides.data() + at, nx, row.data() + 1);
+        const std::int8_t* const beside[4] = {
+            j > 0 ? sides.data() + at - nx : none.data(),
+            j + 1 < ny ? sides.data() + at + nx : none.data(),
+            k > 0 ? sides.data() + at - nx * ny : none.data(),
+            k + 1 < nz ? sides.data() + at + nx * ny : none.data()};
+        push_row(drive.data() + at, row.data() + 1, beside, nx, after.data() + at);
       }
-    }
-  });
-  // A node that is not zero must not become one.
-  const auto least = static_cast<float>(0.05 * fine_.spacing.minCoeff());
-  Field result(fine_.size());
+    });
+    sides.swap(after);
+  }
+}
+
+Field Halving::prolong(const Field& psi, const Field& before, const Field& after,
+                       const Field& advance, const Drive& drive, bool outside, int threads) const {
+  std::vector<std::int8_t> sides(static_cast<std::size_t>(fine_.size()));
+  const auto has_changed = [&](std::int64_t block) {
+    return (before[block] <= 0.0F) != (after[block] <= 0.0F);
+  };
   for_blocks(threads, [&](std::int64_t at, const std::int64_t* rows, int count) {
     for (int r = 0; r < count; ++r) {
       for (std::int64_t x = 0; x < fine_.dims[0]; ++x) {
         const std::int64_t block = at + x / factor_[0];
-        const float own = psi[rows[r] + x];
-        const float distance = std::max(std::abs(after[block]), least);
-        const bool inside = mark[block] == 1 ? after[block] <= 0.0F : own <= 0.0F;
-        result[rows[r] + x] = mark[block] == 0 ? own : (inside ? -distance : distance);
+        const float of = has_changed(block) ? after[block] : psi[rows[r] + x];
+        sides[static_cast<std::size_t>(rows[r] + x)] = of <= 0.0F ? -1 : 1;
+      }
+    }
+  });
+  push(drive, outside, threads, sides);
+
+  const auto step = static_cast<float>(fine_.spacing.minCoeff());
+  const auto limit = static_cast<float>(coarse_.spacing.maxCoeff());
+  const float least = 0.05F * step;  // a node that is not zero must not become one
+  Field result(fine_.size());
+  for_blocks(threads, [&](std::int64_t at, const std::int64_t* rows, int count) {
+    for (int r = 0; r < count; ++r) {
+      for (std::int64_t x = 0; x < fine_.dims[0]; ++x) {
+        const std::int64_t block = at + x / factor_[0], node = rows[r] + x;
+        const std::int8_t side = sides[static_cast<std::size_t>(node)];
+        if (drive[static_cast<std::size_t>(node)] == side) {
+          result[node] = -advance[node] * step;
+        } else if (has_changed(block)) {
+          result[node] = side * std::max(std::abs(after[block]), least);
+        } else {
+          result[node] = std::clamp(psi[node], -limit, limit);
+        }
       }
     }
   });

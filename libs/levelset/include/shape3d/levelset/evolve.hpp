@@ -70,10 +70,11 @@ struct FrontStatistics {
   double speed = 0.0;
   /// Nodes that changed sides in this iteration; a node of a coarser grid counts as a whole block.
   std::int64_t crossed = 0;
-  std::int64_t inside = 0;        ///< Nodes with ψ ≤ 0, counted as `crossed`.
-  std::int64_t front_nodes = 0;   ///< Nodes of the level beside the front at the last
-                                  ///< reinitialisation.
-  std::int64_t active_tiles = 0;  ///< Tiles of 8 × 8 × 8 nodes that were computed.
+  std::int64_t inside = 0;          ///< Nodes with ψ ≤ 0, counted as `crossed`.
+  std::int64_t front_nodes = 0;     ///< Nodes of the level beside the front at the last
+                                    ///< reinitialisation.
+  std::int64_t active_tiles = 0;    ///< Tiles of 8 × 8 × 8 nodes that were computed, in part.
+  std::int64_t computed_nodes = 0;  ///< Nodes that were computed.
 };
 
 /// Outcome of evolve().
