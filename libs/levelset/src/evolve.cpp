@@ -122,6 +122,7 @@ class Solver {
   }
 
   Field move(const Problem& problem, Field psi);
+  [[nodiscard]] detail::Step make_step(const Problem& problem, float limit) const;
   bool report(const Problem& problem, const detail::NarrowBand& band);
 
   const EvolveOptions& options_;
@@ -148,6 +149,22 @@ bool Solver::report(const Problem& problem, const detail::NarrowBand& band) {
   const double left =
       problem.level > 0 ? std::numeric_limits<double>::quiet_NaN() : forecast_.seconds_left;
   return options_.progress({"evolution", base + span * forecast_.share, left});
+}
+
+detail::Step Solver::make_step(const Problem& problem, float limit) const {
+  detail::Step step;
+  step.limit = limit;
+  step.curvature = static_cast<float>(problem.curvature);
+  step.max_curvature = static_cast<float>(max_curvature(problem.grid));
+  if (problem.curvature > 0.0) {
+    step.term = options_.curvature_kind == Curvature::mean ? detail::CurvatureTerm::mean
+                                                           : detail::CurvatureTerm::minimal;
+  } else if (levels_ > 0 && problem.level == 0) {
+    // After a coarse start time means nothing any more: only where the front rests does, and that
+    // does not depend on the length of the steps, which may differ from node to node.
+    step.gain = kLocalSteps;
+  }
+  return step;
 }
 
 /// ψ at rest on one grid.
@@ -179,17 +196,10 @@ Field Solver::move(const Problem& problem, Field psi) {
   const double margin = epsilon > 0.0 ? 1.5 : 1.0;
   detail::NarrowBand band(lattice, std::move(psi), problem.advance, k, limit, margin * reach,
                           threads_);
-  detail::Step step;
-  step.limit = limit;
-  step.curvature = static_cast<float>(epsilon);
-  step.max_curvature = static_cast<float>(max_curvature(grid));
-  // After a coarse start time means nothing any more: only where the front rests does, and that
-  // does not depend on the length of the steps, which may differ from node to node.
-  if (levels_ > 0 && problem.level == 0 && epsilon == 0.0) step.gain = kLocalSteps;
-  if (epsilon > 0.0) {
-    step.term = options_.curvature_kind == Curvature::mean ? detail::CurvatureTerm::mean
-                                                           : detail::CurvatureTerm::minimal;
-  }
+  detail::Step step = make_step(problem, limit);
+  // Fronts of coarse grids need not rest as near to their place.
+  const double tolerance =
+      options_.tolerance * (problem.level > 0 ? 5.0 : static_cast<double>(step.gain));
   forecast_ = detail::Forecast(options_.max_iterations);
   const auto end = [this](Status status) {
     result_.status = status;
@@ -213,9 +223,7 @@ Field Solver::move(const Problem& problem, Field psi) {
     travelled += step.dt * (band.max_speed() + epsilon * max_factor * 0.5 / least);
     const bool last = statistics_.iteration == options_.max_iterations || still;
     if (last || travelled >= 0.999 * reach) {
-      const detail::NarrowBand::Motion motion =
-          band.redistance(static_cast<double>(problem.level > 0 ? 5.0F : step.gain) *
-                          options_.tolerance * since_redistance);
+      const detail::NarrowBand::Motion motion = band.redistance(tolerance * since_redistance);
       statistics_.speed = since_redistance > 0.0 ? motion.mean / since_redistance : 0.0;
       statistics_.front_nodes = motion.nodes;
       since_redistance = travelled = 0.0;

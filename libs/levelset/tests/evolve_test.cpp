@@ -263,6 +263,10 @@ TEST_CASE("from coarser grids the front comes to the same rest", "[levelset]") {
   const Field box = box_front(grid, {{0, 0, 0}, grid.dims});
   const Evolution fine = evolve(grid, box, speed, {}, options);
   REQUIRE(fine.status == Status::converged);
+  // Of nodes that the front rests on, |F| under 0.05, either side is right.
+  const auto different = [&](const Field& a, const Field& b) {
+    return (((a <= 0.0F) != (b <= 0.0F)) && speed.abs() > 0.05F).count();
+  };
   const Field ball = sphere_front(grid, {20, 19, 14}, 3.0);
   const Evolution fine_grown = evolve(grid, ball, speed, {}, options);
   for (const int levels : {1, 2, 3, 8}) {
@@ -270,7 +274,7 @@ TEST_CASE("from coarser grids the front comes to the same rest", "[levelset]") {
     const Evolution coarse = evolve(grid, box, speed, {}, options);
     INFO(levels << " levels, noisy " << noisy << ", curvature " << epsilon);
     CHECK(coarse.status == Status::converged);
-    CHECK(((coarse.psi <= 0.0F) != (fine.psi <= 0.0F)).count() <= 12);
+    CHECK(different(coarse.psi, fine.psi) <= 4);
     CHECK(coarse.band == fine.band);
     // Levels come down to 0, iterations and time go on.
     const FrontStatistics* before = nullptr;
@@ -284,7 +288,7 @@ TEST_CASE("from coarser grids the front comes to the same rest", "[levelset]") {
     CHECK(coarse.iterations.back().inside == (coarse.psi <= 0.0F).count());
     // From within, too.
     const Evolution grown = evolve(grid, ball, speed, {}, options);
-    CHECK(((grown.psi <= 0.0F) != (fine_grown.psi <= 0.0F)).count() <= 12);
+    CHECK(different(grown.psi, fine_grown.psi) <= 4);
   }
 }
 
