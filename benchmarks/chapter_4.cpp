@@ -56,7 +56,34 @@ struct Mapped {
   Triangles F;
   std::string why_not;
   bool repaired = false, ambiguous = false;
+  int divisions =
+      0;  ///< Times that its triangles were divided into four, so that it could be mapped.
 };
+
+/// Every triangle as four: the same surface.
+ClosedMesh divided(const ClosedMesh& mesh) {
+  std::map<std::pair<int, int>, int> middles;
+  std::vector<Eigen::RowVector3d> added;
+  const auto middle = [&](int i, int j) {
+    const auto [place, fresh] = middles.emplace(
+        std::minmax(i, j), static_cast<int>(mesh.V.rows()) + static_cast<int>(added.size()));
+    if (fresh) added.emplace_back(0.5 * (mesh.V.row(i) + mesh.V.row(j)));
+    return place->second;
+  };
+  ClosedMesh result;
+  result.F.resize(4 * mesh.F.rows(), 3);
+  for (Eigen::Index t = 0; t < mesh.F.rows(); ++t) {
+    const int a = mesh.F(t, 0), b = mesh.F(t, 1), c = mesh.F(t, 2);
+    const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    result.F.middleRows<4>(4 * t) << a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca;
+  }
+  result.V.resize(mesh.V.rows() + static_cast<Eigen::Index>(added.size()), 3);
+  result.V.topRows(mesh.V.rows()) = mesh.V;
+  for (std::size_t k = 0; k < added.size(); ++k) {
+    result.V.row(mesh.V.rows() + static_cast<Eigen::Index>(k)) = added[k];
+  }
+  return result;
+}
 
 Mapped mapped(ClosedMesh mesh) {
   Mapped result;
@@ -72,28 +99,63 @@ Mapped mapped(ClosedMesh mesh) {
   }
   const mapping::Pose pose = mapping::align(mesh.V, mesh.F);
   result.ambiguous = pose.ambiguous;
-  result.V = mapping::posed(mesh.V, pose);
-  result.F = mesh.F;
-  mapping::SphericalMap map = mapping::spherical_map(result.V, result.F);
-  if (map.status == mapping::Status::certified) {
-    result.S = std::move(map.S);
-  } else {
+  mesh.V = mapping::posed(mesh.V, pose);
+  // Limbs of few triangles may be too coarse for a map that is one to one.
+  for (; result.divisions <= 1; ++result.divisions, mesh = divided(mesh)) {
+    mapping::SphericalMap map = mapping::spherical_map(mesh.V, mesh.F);
+    if (map.status == mapping::Status::certified) {
+      result.S = std::move(map.S);
+      result.V = std::move(mesh.V);
+      result.F = std::move(mesh.F);
+      return result;
+    }
     result.why_not = mapping::to_string(map.status);
   }
   return result;
 }
 
-Descriptor descriptor(const std::string& kind, const std::string& form) {
-  return Descriptor::parse(kind + ":K=16,form=" + form);
+constexpr int kDegree = 16;
+constexpr int kAmplitudes = (kDegree + 1) * (kDegree + 2) / 2;  // of a component
+
+/// Both forms of the vector of an image from one expansion: the amplitudes of all components, of
+/// which the dissertation takes the first two, and the norms, which follow from them.
+std::map<std::string, Eigen::VectorXd> vectors(const Image& image, const Mapped& mesh) {
+  const bool scalar = std::string(image.kind) == "sci";
+  const Descriptor d = Descriptor::parse(std::string(image.kind) + ":K=16,form=amplitudes" +
+                                         (scalar ? "" : ",components=3"));
+  const Eigen::VectorXd all = d.compute(mesh.V, mesh.F, mesh.S, 1);
+  Eigen::VectorXd norms = Eigen::VectorXd::Zero(kDegree + 1);
+  for (Eigen::Index k = 0; k < all.size(); ++k) {
+    int l = 0, m = static_cast<int>(k % kAmplitudes);
+    while (m > l) m -= ++l;
+    norms[l] += (m == 0 ? 1 : 2) * all[k] * all[k];  // |C_l^-m| = |C_l^m|
+  }
+  return {{"amplitudes", all.head(scalar ? kAmplitudes : 2 * kAmplitudes)},
+          {"norms", norms.cwiseSqrt()}};
 }
 
-Features features(const std::vector<Mapped>& meshes, const Descriptor& d) {
-  Features X(static_cast<Eigen::Index>(meshes.size()), d.length());
-  tbb::parallel_for(Eigen::Index{0}, X.rows(), [&](Eigen::Index i) {
-    const Mapped& m = meshes[static_cast<std::size_t>(i)];
-    X.row(i) = d.compute(m.V, m.F, m.S, 1).transpose();
-  });
-  return X;
+using FeatureSets = std::map<std::string, Features>;  // by "kind form"
+
+std::string name_of(const Image& image, const std::string& form) {
+  return std::string(image.kind) + " " + form;
+}
+
+FeatureSets features(const std::vector<Mapped>& meshes) {
+  FeatureSets sets;
+  for (const Image& image : kImages) {
+    std::vector<std::map<std::string, Eigen::VectorXd>> rows(meshes.size());
+    tbb::parallel_for(std::size_t{0}, meshes.size(),
+                      [&](std::size_t i) { rows[i] = vectors(image, meshes[i]); });
+    for (const char* form : kForms) {
+      Features& X = sets[name_of(image, form)];
+      X.resize(static_cast<Eigen::Index>(meshes.size()), rows.front()[form].size());
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        X.row(static_cast<Eigen::Index>(i)) = rows[i][form].transpose();
+      }
+    }
+    std::fprintf(stderr, "%s: %zu described\n", image.name, meshes.size());
+  }
+  return sets;
 }
 
 Eigen::MatrixXd distances(const Features& X) {
@@ -163,12 +225,6 @@ Spread spread(const std::vector<double>& values) {
 
 std::string percent(double share) { return fixed(100 * share, 1); }
 
-using FeatureSets = std::map<std::string, Features>;  // by "kind form"
-
-std::string name_of(const Image& image, const char* form) {
-  return std::string(image.kind) + " " + form;
-}
-
 void compare_images(const FeatureSets& sets, const Labels& labels) {
   MarkdownTable table({"image", "numbers of", "length", "nearest neighbour", "3 nearest",
                        "5 nearest", "first tier", "DCG", "SOM purity, PCA start",
@@ -231,25 +287,25 @@ std::vector<std::vector<Mapped>> levels(const std::vector<std::string>& files) {
 
 void levels_of_detail(const FeatureSets& sets, const std::vector<std::string>& files) {
   const std::vector<std::vector<Mapped>> all_levels = levels(files);
+  std::fprintf(stderr, "levels of detail mapped\n");
   for (const Image& image : kImages) {
     for (const char* form : kForms) {
-      const Descriptor d = descriptor(image.kind, form);
       const learning::Som som = trained(sets.at(name_of(image, form)), 0);
       MarkdownTable table({"mesh", "500", "1,000", "2,000", "4,000", "8,000", "16,000",
                            "most steps from the finest", "largest distance / nearest other mesh"});
       int within = 0, all = 0;
-      std::vector<std::vector<Eigen::VectorXd>> vectors;
+      std::vector<std::vector<Eigen::VectorXd>> found;
       std::vector<std::vector<int>> units;
       for (const std::vector<Mapped>& of_one : all_levels) {
-        vectors.emplace_back();
+        found.emplace_back();
         units.emplace_back();
         for (const Mapped& level : of_one) {
           if (level.S.rows() == 0) {
             units.back().push_back(-1);
             continue;
           }
-          vectors.back().push_back(d.compute(level.V, level.F, level.S));
-          const Features x = vectors.back().back().transpose();
+          found.back().push_back(vectors(image, level)[form]);
+          const Features x = found.back().back().transpose();
           units.back().push_back(learning::best_units(som, x).first.front());
         }
       }
@@ -265,12 +321,12 @@ void levels_of_detail(const FeatureSets& sets, const std::vector<std::string>& f
           within += away <= 1 ? 1 : 0;
         }
         double own = 0, other = 1e300;
-        for (const Eigen::VectorXd& v : vectors[i]) {
-          own = std::max(own, (v - vectors[i].back()).norm());
+        for (const Eigen::VectorXd& v : found[i]) {
+          own = std::max(own, (v - found[i].back()).norm());
         }
         for (std::size_t j = 0; j < files.size(); ++j) {
           if (j == i) continue;
-          other = std::min(other, (vectors[j].back() - vectors[i].back()).norm());
+          other = std::min(other, (found[j].back() - found[i].back()).norm());
         }
         cells.push_back(std::to_string(most));
         cells.push_back(fixed(own / other, 2));
@@ -348,8 +404,9 @@ void poses() {
       left.push_back(mapping::align(turned.V, turned.F).rotation * R);
       const Mapped m = mapped(turned);
       ambiguous += m.ambiguous ? 1 : 0;
-      amplitudes.push_back(descriptor("sni", "amplitudes").compute(m.V, m.F, m.S));
-      norms.push_back(descriptor("sni", "norms").compute(m.V, m.F, m.S));
+      std::map<std::string, Eigen::VectorXd> both = vectors(kImages[0], m);
+      amplitudes.push_back(both["amplitudes"]);
+      norms.push_back(both["norms"]);
     }
     // Two poses differ by the least rotation that takes one to the other, up to the half turns that
     // every cuboid has.
@@ -370,12 +427,12 @@ void poses() {
         ++pairs;
       }
     }
-    const auto relative_spread = [](const std::vector<Eigen::VectorXd>& vectors) {
-      Eigen::VectorXd mean = Eigen::VectorXd::Zero(vectors.front().size());
-      for (const auto& v : vectors) mean += v / static_cast<double>(vectors.size());
+    const auto relative_spread = [](const std::vector<Eigen::VectorXd>& of_poses) {
+      Eigen::VectorXd mean = Eigen::VectorXd::Zero(of_poses.front().size());
+      for (const auto& v : of_poses) mean += v / static_cast<double>(of_poses.size());
       double squares = 0;
-      for (const auto& v : vectors) squares += (v - mean).squaredNorm();
-      return std::sqrt(squares / static_cast<double>(vectors.size())) / mean.norm();
+      for (const auto& v : of_poses) squares += (v - mean).squaredNorm();
+      return std::sqrt(squares / static_cast<double>(of_poses.size())) / mean.norm();
     };
     table.add({name, std::to_string(kPoses), std::to_string(ambiguous), fixed(sum / pairs, 1) + "°",
                fixed(most, 1) + "°", fixed(relative_spread(amplitudes), 4),
@@ -400,30 +457,35 @@ int run(int argc, char** argv) {
   });
   std::vector<Mapped> meshes;
   Labels labels;
-  int repaired = 0, ambiguous = 0;
-  std::string left_out;
+  int repaired = 0, ambiguous = 0, divided_once = 0;
+  std::map<std::string, int> left_out;
   for (std::size_t i = 0; i < all.size(); ++i) {
     repaired += all[i].repaired ? 1 : 0;
     if (all[i].S.rows() == 0) {
-      left_out += "\n- " + collection.models[i].id + ": " + all[i].why_not;
+      ++left_out[collection.classes[static_cast<std::size_t>(collection.models[i].of_class)] +
+                 ": " + all[i].why_not];
       continue;
     }
     ambiguous += all[i].ambiguous ? 1 : 0;
+    divided_once += all[i].divisions == 1 ? 1 : 0;
     labels.push_back(collection.models[i].of_class);
     meshes.push_back(std::move(all[i]));
   }
   std::printf(
-      "%zu meshes of %zu classes; %d had to be repaired, %zu are mapped, the poses of %d of these "
-      "are ambiguous.%s%s\n\n",
-      all.size(), collection.classes.size(), repaired, meshes.size(), ambiguous,
-      left_out.empty() ? "" : " Left out:\n", left_out.c_str());
-  FeatureSets sets;
-  for (const Image& image : kImages) {
-    for (const char* form : kForms) {
-      sets[name_of(image, form)] = features(meshes, descriptor(image.kind, form));
-    }
+      "%zu meshes of %zu classes; %d had to be repaired. %zu are mapped, %d of these with their "
+      "triangles divided\ninto four; the poses of %d are ambiguous.\n\n",
+      all.size(), collection.classes.size(), repaired, meshes.size(), divided_once, ambiguous);
+  MarkdownTable without({"class", "left out because", "meshes"});
+  for (const auto& [reason, count] : left_out) {
+    const std::size_t colon = reason.find(": ");
+    without.add({reason.substr(0, colon), reason.substr(colon + 2), std::to_string(count)});
   }
+  if (!left_out.empty()) std::printf("%s\n", without.text().c_str());
+  std::fflush(stdout);
+  std::fprintf(stderr, "%zu meshes mapped\n", meshes.size());
+  const FeatureSets sets = features(meshes);
   compare_images(sets, labels);
+  poses();
   std::printf(
       "## One object in 500 to 16,000 triangles\n\nUnits of the map (row · 6 + column).\n\n");
   levels_of_detail(sets, std::vector<std::string>(argv + 2, argv + argc));

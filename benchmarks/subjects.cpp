@@ -19,6 +19,7 @@
 #include <vtkSMPTools.h>
 #include <shape3d/zmc/extractor.hpp>
 
+#include "common/vtk_samples.hpp"
 #include "line_process.hpp"
 
 namespace shape3d::bench {
@@ -97,26 +98,6 @@ class Zmc : public Subject {
   Surface surface_;
 };
 
-int vtk_type(zmc::SampleType type) {
-  switch (type) {
-    case zmc::SampleType::int8:
-      return VTK_SIGNED_CHAR;
-    case zmc::SampleType::uint8:
-      return VTK_UNSIGNED_CHAR;
-    case zmc::SampleType::int16:
-      return VTK_SHORT;
-    case zmc::SampleType::uint16:
-      return VTK_UNSIGNED_SHORT;
-    case zmc::SampleType::int32:
-      return VTK_INT;
-    case zmc::SampleType::float32:
-      return VTK_FLOAT;
-    case zmc::SampleType::float64:
-      return VTK_DOUBLE;
-  }
-  return VTK_VOID;
-}
-
 /// VTK's filters always allocate their output afresh.
 template <class Filter>
 class Vtk : public Subject {
@@ -130,7 +111,7 @@ class Vtk : public Subject {
     }
     import_->SetImportVoidPointer(
         const_cast<void*>(view.data));  // read only; VTK's interface has no const
-    import_->SetDataScalarType(vtk_type(view.type));
+    import_->SetDataScalarType(apps::vtk_type(view.type));
     import_->SetNumberOfScalarComponents(1);
     import_->SetDataExtent(extent.data());
     import_->SetWholeExtent(extent.data());

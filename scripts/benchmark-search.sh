@@ -6,7 +6,7 @@
 # Makes 100 000 small meshes (0.5 GB) and vectors of a million shapes in a temporary folder, and
 # takes about 15 minutes. With SHAPE3D_BENCH_FOLDER=<build folder> nothing is built. SHAPE3D_BENCH_WORK=<folder> keeps
 # the libraries, and uses those that are there. SHAPE3D_BENCH_RUNNER=<command> goes before each
-# command that is timed.
+# command that is timed, SHAPE3D_BENCH_LONG_RUNNER=<command> before the two that take minutes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 : "${SHAPE3D_DATA:?expected a folder with psb/db}"

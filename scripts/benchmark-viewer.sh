@@ -27,10 +27,12 @@ $table
 
 - Opening begins with the samples in memory: least, greatest and automatic window of the values, three
   slices and the 3D view. Median of three. Volumes are generated (a gyroid with noise).
-- Dragging: each picture is a ZMC surface of the volume at a lower resolution (at most 2¹⁹
-  samples), its drawing, and the contours of the full volume on three slices.
+- Dragging: each picture is a ZMC surface of the volume at a lower resolution (at most 2¹⁸
+  samples), its drawing, and its contours on three slices.
 - Turning: mouse events, each with its picture on the screen; a surface of about 40,000 triangles, made
   by clustering vertices after the extraction, stands in for the full one. Medians.
-- Memory is the resident size; a software renderer keeps its copy of the surfaces there as well.
+- Memory is the resident size, 1.5 s after the surface was drawn. Before anything is open it is that of the libraries (Qt, VTK, and LLVM, which
+  the software renderer compiles shaders with) and of the window. The renderer's own copy of the surface,
+  which a graphics card would hold, counts as the program's, too.
 END
 echo "docs/benchmarks/viewer.md" >&2

@@ -18,6 +18,7 @@ import numpy as np
 build, meshes, work = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]).resolve()
 shape3d, bench = build / "apps/shape3d/shape3d", build / "benchmarks/shape3d_search_bench"
 runner = shlex.split(os.environ.get("SHAPE3D_BENCH_RUNNER", ""))
+long_runner = shlex.split(os.environ.get("SHAPE3D_BENCH_LONG_RUNNER", "")) or runner
 MANY = "hsh:K=8,voxels=18"  # 45 numbers, of coarse voxels: the meshes are coarse, too
 
 
@@ -25,8 +26,8 @@ def say(text):
     print(text, file=sys.stderr, flush=True)
 
 
-def timed(command, name):
-    """Seconds and peak memory (MiB) of a command, kept for the next run of this script."""
+def timed(command, name, before=None):
+    """Seconds, peak memory (MiB), status and seconds of processors of a command, kept for the next run of this script."""
     kept = work / f"{name}.timed"
     if kept.exists():
         return json.loads(kept.read_text())
@@ -35,7 +36,7 @@ def timed(command, name):
             "status=subprocess.run(sys.argv[1:],stdout=subprocess.DEVNULL).returncode;"
             "print(json.dumps([time.monotonic()-start,resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss/1024,"
             "status,resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime]))")
-    out = subprocess.run(runner + ["/usr/bin/python3", "-c", code] + list(map(str, command)),
+    out = subprocess.run((runner if before is None else before) + ["/usr/bin/python3", "-c", code] + list(map(str, command)),
                          stdout=subprocess.PIPE, check=True).stdout
     result = json.loads(out.splitlines()[-1])
     assert result[2] == 0, command
@@ -75,8 +76,8 @@ def make_meshes(folder, count):
 
 work.mkdir(exist_ok=True)
 princeton = work / "psb.db"
-add_psb = timed([shape3d, "library", "add", princeton, meshes, "--quiet"], "add_psb")
-add_psb_only = timed([shape3d, "library", "add", work / "psb_only.db", meshes, "--no-thumbnails", "--quiet"], "add_psb_only")
+add_psb = timed([shape3d, "library", "add", princeton, meshes, "--no-thumbnails", "--quiet"], "add_psb")
+draw_psb = timed([shape3d, "library", "add", princeton, meshes, "--quiet"], "draw_psb")
 table = work / "psb.npy"
 if not table.exists():
     subprocess.run([shape3d, "library", "export", princeton, "--npy", table, "--quiet"], check=True)
@@ -87,16 +88,16 @@ adds = {}
 for size, folders in ((10000, 10), (100000, 100)):
     parts = [work / "many" / f"{i:03d}" for i in range(folders)]
     adds[size] = timed([shape3d, "library", "add", work / f"many{size}.db", *parts, "--descriptor", MANY,
-                        "--no-thumbnails", "--quiet"], f"add_{size}")
+                        "--no-thumbnails", "--quiet"], f"add_{size}", long_runner if size > 10000 else runner)
 library = work / "many100000.db"
 query = work / "many/042/m42042.stl"
-mesh_of_psb = next(meshes.rglob("m42.off"))
+mesh_of_psb = next(meshes.rglob("m100.off"))
 searches = {}
 for name, command in {
         "a model of the library, by its number": [shape3d, "search", library, "--id", "42042", "--quiet"],
         "a mesh that is in the library": [shape3d, "search", library, query, "--quiet"],
-        "another mesh (Princeton's m42)": [shape3d, "search", library, mesh_of_psb, "--quiet"],
-        "the 904 Princeton meshes, m42": [shape3d, "search", princeton, mesh_of_psb, "--quiet"]}.items():
+        "another mesh (Princeton's m100)": [shape3d, "search", library, mesh_of_psb, "--quiet"],
+        "the 904 Princeton meshes, m100": [shape3d, "search", princeton, mesh_of_psb, "--quiet"]}.items():
     key = "search_" + "".join(c if c.isalnum() else "_" for c in name)
     searches[name] = [timed(command, f"{key}_{i}")[0] for i in range(7)]
 start = statistics.median(timed([shape3d, "--version"], f"start_{i}")[0] for i in range(7))
@@ -106,7 +107,7 @@ for size in (10000, 100000, 1000000):
     if not kept.exists():
         say(f"{size} vectors")
         graph = ["--graph"] if size >= 100000 else []
-        kept.write_bytes(subprocess.run(runner + [str(bench), str(table), str(size)] + graph, stdout=subprocess.PIPE,
+        kept.write_bytes(subprocess.run((long_runner if size > 100000 else runner) + [str(bench), str(table), str(size)] + graph, stdout=subprocess.PIPE,
                                         check=True).stdout)
     benches[size] = json.loads(kept.read_text())
 
@@ -149,9 +150,14 @@ for name, times in searches.items():
 print(f"\nOf these, {start:.3f} s are what the process takes to start and end (`shape3d --version`). The first three are in a "
       "library of 100 000 models.\n")
 print("## Adding meshes\n")
-print("| what | seconds | a mesh | largest resident memory |\n|:--|--:|--:|--:|")
-for name, (seconds, memory, _, _), size in (
-        ("Princeton meshes, with thumbnails", add_psb, count), ("the same without thumbnails", add_psb_only, count),
+print("| what | seconds | seconds of processors | a mesh | largest resident memory |\n|:--|--:|--:|--:|--:|")
+for name, (seconds, memory, _, cpu_seconds), size in (
+        ("Princeton meshes, described by the default", add_psb, count), ("their thumbnails, by another run", draw_psb, count),
         (f"generated meshes of 96 triangles, `{MANY}`", adds[10000], 10000), ("the same", adds[100000], 100000)):
-    print(f"| {size} {name} | {seconds:.1f} | {1e3 * seconds / size:.2f} ms | {memory:.0f} MiB |")
+    print(f"| {size} {name} | {seconds:.1f} | {cpu_seconds:.1f} | {1e3 * seconds / size:.2f} ms | {memory:.0f} MiB |")
+print(f"\nPrinceton meshes with thumbnails: {add_psb[0] + draw_psb[0]:.1f} s, {75 / (add_psb[0] + draw_psb[0]):.2f} of the target of 75 s "
+      "(above 1: faster).")
+if long_runner != runner:
+    print("The run of 100 000 meshes and the table of a million vectors were not alone on the machine: their seconds are too long, "
+          "the seconds of processors, the memory and the recall are right.")
 print("\nMemory holds the paths and the states of the files, about a kilobyte a mesh, and the meshes that are being described.")

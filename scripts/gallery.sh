@@ -23,12 +23,16 @@ skull() {
 library() {
   [[ -f $work/shapes.db ]] && return
   rm -f "$work/new.db"
-  "$shape3d" library add "$work/new.db" "$SHAPE3D_DATA/shrec11_500" --class-from-folder --descriptor hsh:K=8 --quiet
+  "$shape3d" library add "$work/new.db" "$SHAPE3D_DATA/shrec11_500" --class-from-folder --descriptor hsh:K=8,unit=yes --quiet
   mv "$work/new.db" "$work/shapes.db"
 }
 
-# smaller FROM TO: 256 colours, a third of the bytes.
-smaller() { convert "$1" +dither -colors 256 -strip -define png:compression-level=9 "PNG8:$2"; }
+# smaller FROM TO: as it is up to 300 kB, else with 256 colours.
+smaller() {
+  convert "$1" -strip -define png:compression-level=9 "$2"
+  [[ $(stat --format %s "$2") -le 300000 ]] ||
+    convert "$1" -dither FloydSteinberg -colors 256 -strip -define png:compression-level=9 "PNG8:$2"
+}
 
 # draw NAME STATE FILE...: the whole window with a view of the files. Views that this viewer does not have are left out.
 draw() {
@@ -40,44 +44,59 @@ draw() {
   echo "docs/images/viewer-$name.png: $(stat --format %s "$picture") bytes"
 }
 
+# Near the head, from the patient's front and left.
+head='"layout": {"camera": [374, -518, 193, 124, -112, 82, 0, 0, 1, 30]}'
+
 volume() {
   skull
-  draw volume '{"window": {"level": 300, "width": 1600}, "cursor": [128, 92, 50]}' "$work/skull.mhd"
+  draw volume '{"window": "bone", "cursor": [128, 92, 50], '"$head}" "$work/skull.mhd"
 }
 
 surface() {
   skull
   draw surface '{"surfaces": [
     {"isovalue": 226, "color": "#f1e6cf"},
-    {"isovalue": -200, "color": "#db8468", "opacity": 0.3}], "marks": false}' "$work/skull.mhd"
+    {"isovalue": -200, "color": "#e0906f", "opacity": 0.25}], "marks": false, '"$head}" "$work/skull.mhd"
 }
 
 segmentation() {
-  draw segmentation "{\"truth\": \"$SHAPE3D_DATA/truth/cip_wholeLung-64_64x64x79_mask.mhd\", \"inside\": \"1\", \"run\": true}" \
+  local truth=$SHAPE3D_DATA/truth/cip_wholeLung-64_64x64x79_mask.mhd
+  draw segmentation '{"truth": "'"$truth"'", "roi": [2, 33, 6, 56, 4, 78], "inside": "dark", "classes": "3",
+    "cursor": [17, 29, 40], "start": "ball", "radius": 30, "run": true,
+    "layout": {"camera": [-300, -325, 310, 75, 125, 160, 0, 0, 1, 30]}}' \
     "$SHAPE3D_DATA/truth/cip_ct-64_64x64x79.mhd"
 }
 
 sphere() {
-  draw sphere '{"color": "curvature"}' "$SHAPE3D_DATA/genus0/spot_23k.off"
+  draw sphere '{"color": "curvature", "layout": {"camera": [-3.1, 1.9, -4.8, 0, 0.12, 0.2, 0, 1, 0, 30]}}' \
+    "$SHAPE3D_DATA/genus0/spot_23k.off"
 }
 
 search() {
   library
-  draw search '{"query": 131, "count": 17}' "$work/shapes.db"
+  draw search '{"query": 403, "count": 17}' "$work/shapes.db"
 }
 
 map() {
   library
   if [[ ! -f $work/map.model ]]; then
     "$shape3d" library export "$work/shapes.db" --h5 "$work/vectors.h5" --quiet
-    "$shape3d" train som "$work/vectors.h5" --class-from-folder --grid 10x14 -o "$work/map.model" --quiet
+    "$shape3d" train som "$work/vectors.h5" --class-from-folder --grid 8x8 -o "$work/map.model" --quiet
   fi
-  draw map '{"unit": [3, 4]}' "$work/map.model" "$work/shapes.db"
+  draw map '{"unit": [8, 5]}' "$work/map.model" "$work/shapes.db"
 }
 
-sheet() {
-  "$shape3d" render --sheet "$SHAPE3D_DATA/genus0" --size 1280x1000 -o "$work/sheet.png"
+sheet() { # one mesh of each shape
+  local mesh
+  rm -rf "$work/meshes"
+  mkdir "$work/meshes"
+  for mesh in armadillo_29k brain_choi_97k brain_gu_5k bunny_60k cat_16k fish_22k goathead_5k hand_16k \
+    human_woman_14k koala_7k lion_choi_100k penguin_7k plane_17k scorpion_13k spot_23k; do
+    ln -sf "$(realpath "$SHAPE3D_DATA/genus0/$mesh.off")" "$work/meshes/"
+  done
+  "$shape3d" render --sheet "$work/meshes" --size 1280x800 -o "$work/sheet.png" >/dev/null
   smaller "$work/sheet.png" "$images/contact-sheet.png"
+  echo "docs/images/contact-sheet.png: $(stat --format %s "$images/contact-sheet.png") bytes"
 }
 
 has_view() { # NAME: the sentence for a wrong name lists the views

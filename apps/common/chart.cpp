@@ -226,7 +226,9 @@ void set_legend(vtkChartXY* chart, LegendPlace place, double text_scale) {
   vtkChartLegend* legend = chart->GetLegend();
   const bool left = place == LegendPlace::top_left || place == LegendPlace::bottom_left;
   const bool top = place == LegendPlace::top_left || place == LegendPlace::top_right;
-  legend->SetHorizontalAlignment(left ? vtkChartLegend::LEFT : vtkChartLegend::RIGHT);
+  legend->SetHorizontalAlignment(left                           ? vtkChartLegend::LEFT
+                                 : place == LegendPlace::bottom ? vtkChartLegend::CENTER
+                                                                : vtkChartLegend::RIGHT);
   legend->SetVerticalAlignment(top ? vtkChartLegend::TOP : vtkChartLegend::BOTTOM);
   legend->SetLabelSize(scaled(kLegendSize, text_scale));
   legend->SetPadding(8);

@@ -55,7 +55,7 @@ struct ChartAxis {
   std::vector<std::pair<double, std::string>> ticks;
 };
 
-enum class LegendPlace { none, top_left, top_right, bottom_left, bottom_right };
+enum class LegendPlace { none, top_left, top_right, bottom_left, bottom, bottom_right };
 
 struct Chart {
   std::string title;

@@ -99,7 +99,7 @@ Chart overlap_chart(const levelset::Segmentation& s) {
   };
   mark("w = 0, as estimated", 0.0, {0.4, 0.4, 0.4});
   mark("calibrated: w = " + four_digits(s.calibration.w), s.calibration.lambda, kGreen);
-  chart.legend = LegendPlace::bottom_right;
+  chart.legend = LegendPlace::bottom;  // below the curve's maximum
   return chart;
 }
 

@@ -14,6 +14,7 @@
 #include <shape3d/zmc/extract.hpp>
 
 #include "common/position_table.hpp"
+#include "common/vtk_samples.hpp"
 #include "stopwatch.hpp"
 
 namespace shape3d::apps {
@@ -36,26 +37,6 @@ void copy_samples(const zmc::VolumeView& view, std::vector<To>& to) {
 template <class T>
 void negate_all(std::vector<T>& samples) {
   for (T& sample : samples) sample = static_cast<T>(-sample);
-}
-
-int vtk_type(zmc::SampleType type) {
-  switch (type) {
-    case zmc::SampleType::int8:
-      return VTK_SIGNED_CHAR;
-    case zmc::SampleType::uint8:
-      return VTK_UNSIGNED_CHAR;
-    case zmc::SampleType::int16:
-      return VTK_SHORT;
-    case zmc::SampleType::uint16:
-      return VTK_UNSIGNED_SHORT;
-    case zmc::SampleType::int32:
-      return VTK_INT;
-    case zmc::SampleType::float32:
-      return VTK_FLOAT;
-    case zmc::SampleType::float64:
-      return VTK_DOUBLE;
-  }
-  return VTK_VOID;
 }
 
 Mesh to_mesh(vtkPolyData* data) {

@@ -46,6 +46,20 @@ std::string command_names(CLI::App& app) {
   return names;
 }
 
+// "unknown command 'extrude', expected info, extract or check", also of a command that has
+// commands; empty if the first words are names.
+std::string wrong_command(CLI::App& app, int words, char** word) {
+  if (words < 1 || word[0][0] == '-') return {};
+  if (!has_command(app, word[0])) {
+    return std::string("unknown command '") + word[0] + "', expected " + command_names(app);
+  }
+  CLI::App& command = *app.get_subcommand(word[0]);
+  if (commands_of(command).empty()) return {};
+  if (words > 1) return wrong_command(command, words - 1, word + 1);
+  return "'" + command.get_name() + "' is not all of a command, expected " +
+         command_names(command) + " behind it";
+}
+
 std::string memory_left() { return bytes_to_text(available_memory()) + " are available"; }
 
 // TBB says so by a runtime_error of this text; the stack of the thread is what there is no room
@@ -113,10 +127,8 @@ int run_program(int argc, char** argv) {
   add_classify(app, settings);
   add_map_collection(app, settings);
   add_shared_options(app, settings);
-  if (argc > 1 && argv[1][0] != '-' && !has_command(app, argv[1])) {
-    return fail(std::string("unknown command '") + argv[1] + "', expected " + command_names(app),
-                kUsage);
-  }
+  const std::string wrong = wrong_command(app, argc - 1, argv + 1);
+  if (!wrong.empty()) return fail(wrong, kUsage);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -16,6 +16,7 @@
 #include "common/text.hpp"
 #include "common/volume_info.hpp"
 #include "common/volume_io.hpp"
+#include "model/heap.hpp"
 
 namespace shape3d::apps::viewer {
 
@@ -95,6 +96,7 @@ struct Document::Reader {
       } else {
         volume = read_open_volume(path);
       }
+      trim_heap();
     } catch (const std::bad_alloc&) {
       error = path + ": there is not enough memory";
     } catch (const std::exception& failure) {
@@ -197,6 +199,7 @@ void Document::close_all() {
   emit meshes_changed();
   emit volume_changed();
   emit collection_changed();
+  trim_heap();
 }
 
 void Document::set_cursor(const Eigen::Vector3d& lattice) {

@@ -1,7 +1,6 @@
 #include "four_up.hpp"
 
 #include <cmath>
-#include <cstring>
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>
@@ -26,7 +25,8 @@
 
 namespace shape3d::apps::viewer {
 
-// A slice as a textured quadrilateral at its place.
+// A slice as a textured quadrilateral at its place. What is black, as the air round a patient, is
+// left out, so that the slices do not hide one another.
 struct FourUp::Plane {
   vtkNew<vtkImageData> image;
   vtkNew<vtkTexture> texture;
@@ -49,18 +49,25 @@ struct FourUp::Plane {
     mapper->SetInputData(data);
     texture->SetInputData(image);
     texture->InterpolateOn();
+    texture->SetWrap(vtkTexture::ClampToEdge);
     actor->SetMapper(mapper);
     actor->SetTexture(texture);
     actor->GetProperty()->LightingOff();
+    actor->ForceOpaqueOn();  // alpha is 0 or 1
   }
 
   void set(const SliceWidget& slice, const zmc::VolumeView& volume) {
     const QImage& grey = slice.image();
     image->SetDimensions(grey.width(), grey.height(), 1);
-    image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-    for (int row = 0; row < grey.height(); ++row)
-      std::memcpy(image->GetScalarPointer(0, row, 0), grey.constScanLine(row),
-                  static_cast<std::size_t>(grey.width()));
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+    auto* to = static_cast<unsigned char*>(image->GetScalarPointer());
+    for (int row = 0; row < grey.height(); ++row) {
+      const unsigned char* from = grey.constScanLine(row);
+      for (int column = 0; column < grey.width(); ++column, to += 4) {
+        to[0] = to[1] = to[2] = from[column];
+        to[3] = from[column] == 0 ? 0 : 255;
+      }
+    }
     image->Modified();
     const auto [across, down] = slice.geometry()->size();
     const auto k = static_cast<double>(slice.slice());

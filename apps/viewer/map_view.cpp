@@ -47,7 +47,7 @@ MapView::MapView(Document& document)
   content_->addWidget(grid_);
   content_->setStretchFactor(0, 3);
   content_->setStretchFactor(1, 1);
-  content_->setSizes({460, 200});
+  content_->setSizes({420, 240});
   content_->setChildrenCollapsible(false);
   grid_->set_picture_size(96);
   grid_->setMinimumHeight(120);
@@ -217,7 +217,7 @@ void MapView::show_unit() {
     cell.key = shape.id;
     cell.first = name;
     cell.second = class_name;
-    cell.third = "distance " + QString::number(shape.distance, 'g', 4);
+    cell.third = "distance " + QString::number(shape.distance, 'g', 3);
     cell.tip = text_of(shape.path);
     // In the colour of its class on the map.
     if (shape.class_name) {

@@ -9,13 +9,17 @@
 #include <QVTKOpenGLNativeWidget.h>
 #include <vtkActor.h>
 #include <vtkAxesActor.h>
+#include <vtkBoundingBox.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkCaptionActor2D.h>
 #include <vtkCellData.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkInteractorStyleTrackballCamera.h>
+#include <vtkLight.h>
+#include <vtkLightCollection.h>
 #include <vtkLightKit.h>
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOrientationMarkerWidget.h>
@@ -27,6 +31,8 @@
 #include <vtkRenderer.h>
 #include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <QEvent>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -141,6 +147,10 @@ SceneWidget::SceneWidget(QWidget* parent)
   parts_->lights->SetKeyToHeadRatio(3.5);
   parts_->lights->SetKeyLightAngle(46.0, -30.0);
   parts_->lights->AddLightsToRenderer(renderer_);
+  // The two lights from behind go: each light costs time in each pixel, and they add a rim only.
+  vtkLightCollection* lights = renderer_->GetLights();
+  for (int n = 3; n < lights->GetNumberOfItems(); ++n)
+    vtkLight::SafeDownCast(lights->GetItemAsObject(n))->SwitchOff();
   gl_->setRenderWindow(window_);
   gl_->setEnableHiDPI(true);
   gl_->installEventFilter(this);
@@ -225,7 +235,7 @@ double SceneWidget::draw_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void SceneWidget::look(LookFrom from) {
+void SceneWidget::look(LookFrom from, SceneWidget* other) {
   struct Place {
     std::array<double, 3> from, up;  // in LPS
   };
@@ -243,10 +253,56 @@ void SceneWidget::look(LookFrom from) {
   eye->SetPosition(place.from.data());
   eye->SetViewUp(place.up.data());
   eye->SetViewAngle(30.0);
-  renderer_->ResetCamera();
-  eye->Dolly(1.12);  // ResetCamera() leaves room for the ball round the bounds
-  renderer_->ResetCameraClippingRange();
+  other_ = other;
+  fit();
   redraw();
+}
+
+// Moves the camera along the line of sight until the corners of the bounds just fit: a corner at
+// (x, y) across and z towards the eye, from the middle, needs |x| <= (d - z) tan(angle / 2) aspect,
+// and |y| <= (d - z) tan(angle / 2), of the distance d.
+void SceneWidget::fit() {
+  vtkBoundingBox box;
+  for (SceneWidget* scene : {this, other_.data()}) {
+    double bounds[6];
+    if (scene == nullptr) continue;
+    scene->renderer_->ComputeVisiblePropBounds(bounds);
+    if (vtkMath::AreBoundsInitialized(bounds)) box.AddBounds(bounds);
+  }
+  if (box.IsValid() == 0) return;
+  using Eigen::Vector3d;
+  const auto vector = [](const double* numbers) {
+    return Vector3d(numbers[0], numbers[1], numbers[2]);
+  };
+  Vector3d middle, half;
+  box.GetCenter(middle.data());
+  box.GetLengths(half.data());
+  half /= 2.0;
+  vtkCamera* eye = camera();
+  const Vector3d back = (vector(eye->GetPosition()) - vector(eye->GetFocalPoint())).normalized();
+  const Vector3d right = vector(eye->GetViewUp()).cross(back).normalized(), up = back.cross(right);
+  constexpr double kFilled = 0.92;
+  const double down = kFilled * std::tan(eye->GetViewAngle() * M_PI / 360.0);
+  const double across = down * std::max(1, gl_->width()) / std::max(1, gl_->height());
+  double distance = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3d at =
+        half.cwiseProduct(Vector3d((corner & 1) != 0 ? 1.0 : -1.0, (corner & 2) != 0 ? 1.0 : -1.0,
+                                   (corner & 4) != 0 ? 1.0 : -1.0));
+    distance = std::max(distance, at.dot(back) + std::max(std::abs(at.dot(right)) / across,
+                                                          std::abs(at.dot(up)) / down));
+  }
+  if (!(distance > 0.0)) distance = 1.0;
+  const Vector3d place = middle + distance * back;
+  eye->SetFocalPoint(middle.data());
+  eye->SetPosition(place.data());
+  renderer_->ResetCameraClippingRange();
+  fitted_ = camera_numbers(eye);
+}
+
+void SceneWidget::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  if (!fitted_.empty() && camera_numbers(camera()) == fitted_) fit();
 }
 
 void SceneWidget::set_axes_visible(bool visible) {

@@ -6,6 +6,7 @@
 
 #include <vtkSmartPointer.h>
 #include <QColor>
+#include <QPointer>
 #include <QWidget>
 
 class QVTKOpenGLNativeWidget;
@@ -71,8 +72,10 @@ class SceneWidget : public QWidget {
   [[nodiscard]] std::int64_t frames() const { return frames_; }
   /// Draws now. @return seconds.
   double draw_now();
-  /// Fits all that is there into the picture.
-  void look(LookFrom from);
+  /// Fits all that is there into the picture, and again when its size changes, until the camera is
+  /// moved.
+  /// @param other  Null, or a scene whose camera follows this one's: what is there is fitted, too.
+  void look(LookFrom from, SceneWidget* other = nullptr);
   /// A small cross of the patient's axes in the corner: L, P, S.
   void set_axes_visible(bool visible);
   /// Draws transparent surfaces in the right order: slower.
@@ -88,14 +91,19 @@ class SceneWidget : public QWidget {
 
  protected:
   bool eventFilter(QObject* object, QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
+  void fit();
+
   vtkSmartPointer<vtkGenericOpenGLRenderWindow> window_;
   vtkSmartPointer<vtkRenderer> renderer_;
   QVTKOpenGLNativeWidget* gl_ = nullptr;
   struct Parts;
   std::unique_ptr<Parts> parts_;
   std::vector<std::weak_ptr<SceneSurface>> surfaces_;
+  QPointer<SceneWidget> other_;
+  std::vector<double> fitted_;  // camera after fit()
   bool interacting_ = false, waiting_ = false;
   std::int64_t frames_ = 0;
 };

@@ -83,6 +83,7 @@ SearchView::SearchView(Document& document)
     : View("search", "Search"), document_(document), content_(new SearchContent) {
   grid_ = content_->grid;
   grid_->set_pictures([this](std::int64_t key) { return picture(key); });
+  grid_->set_picture_size(130);  // three whole rows of six at 1280 x 720
   make_panel();
   connect(grid_, &ThumbnailGrid::clicked, this, &SearchView::click);
   content_->dropped = [this](const std::string& path) {

@@ -89,6 +89,7 @@ SegmentationPanel::SegmentationPanel()
   progress->setMaximumHeight(10);
   column->addWidget(progress);
   stage->setWordWrap(true);
+  stage->setObjectName("stage");
   column->addWidget(stage);
   facts->setWordWrap(true);
   facts->setObjectName("facts");

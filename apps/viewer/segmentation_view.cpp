@@ -241,7 +241,9 @@ void SegmentationView::cancel() {
 bool SegmentationView::busy() const { return worker_ != nullptr; }
 
 void SegmentationView::take(const SegmentUpdate& update) {
-  panel_->stage->setText(QString::fromStdString(update.stage) + " …");
+  // The number of the iteration stays until the next picture of the front.
+  if (frames_ == 0 || update.stage != "evolution")
+    panel_->stage->setText(QString::fromStdString(update.stage) + " …");
   if (update.share >= 0.0) panel_->progress->setValue(static_cast<int>(1000 * update.share));
   if (update.front) {
     ++frames_;
@@ -383,6 +385,10 @@ void SegmentationView::set_state(const nlohmann::json& state) {
 }
 
 void SegmentationView::set_parameters(const nlohmann::json& state) {
+  if (state.contains("cursor")) {  // where a ball starts; in sessions it is the volume view's
+    const auto place = state["cursor"].get<std::array<double, 3>>();
+    document_.set_cursor({place[0], place[1], place[2]});
+  }
   if (state.contains("roi") && volume_) {
     const auto ends = state["roi"].get<std::array<std::int64_t, 6>>();
     VoxelBox box;

@@ -131,15 +131,32 @@ void SliceWidget::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
   painter.fillRect(rect(), theme_.slice_background);
   if (image_.isNull()) return;
-  const auto [across, down] = geometry_->size();
-  const double s = scale();
-  painter.setRenderHint(QPainter::SmoothPixmapTransform);
-  painter.drawImage(QRectF(corner(), QSizeF(s * across, s * down)), image_);
+  update_background();
+  painter.drawImage(0, 0, background_);
   painter.setRenderHint(QPainter::Antialiasing);
   paint_lines(painter);
   paint_box(painter);
   paint_cursor(painter);
   paint_texts(painter);
+}
+
+void SliceWidget::update_background() {
+  const auto [across, down] = geometry_->size();
+  const double s = scale();
+  const QRectF place(corner(), QSizeF(s * across, s * down));
+  const QSize pixels = size() * devicePixelRatio();
+  const bool same = background_.size() == pixels && background_of_ == image_.cacheKey() &&
+                    background_place_ == place && background_dark_ == theme_.dark;
+  if (same) return;
+  background_ = QImage(pixels, QImage::Format_RGB32);
+  background_.setDevicePixelRatio(devicePixelRatio());
+  background_.fill(theme_.slice_background);
+  QPainter painter(&background_);
+  painter.setRenderHint(QPainter::SmoothPixmapTransform);
+  painter.drawImage(place, image_);
+  background_of_ = image_.cacheKey();
+  background_place_ = place;
+  background_dark_ = theme_.dark;
 }
 
 void SliceWidget::paint_lines(QPainter& painter) {

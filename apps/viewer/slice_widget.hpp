@@ -10,6 +10,7 @@
 #include <QColor>
 #include <QImage>
 #include <QPointF>
+#include <QRectF>
 #include <QString>
 #include <QWidget>
 
@@ -99,6 +100,7 @@ class SliceWidget : public QWidget {
   void start_box(const QPointF& pixel);
   void drag_box(const QPointF& pixel, bool finished);
   [[nodiscard]] std::array<int, 2> plane_axes() const;
+  void update_background();
   void paint_lines(QPainter& painter);
   void paint_box(QPainter& painter);
   void paint_cursor(QPainter& painter);
@@ -110,6 +112,11 @@ class SliceWidget : public QWidget {
   std::optional<SliceGeometry> geometry_;
   std::int64_t shown_ = -1;
   QImage image_;
+  // The slice as it is on the screen, and of what it was made: lines over it change more often.
+  QImage background_;
+  qint64 background_of_ = 0;
+  QRectF background_place_;
+  bool background_dark_ = true;
   OutlineMaker outline_maker_;
   std::vector<Outline> outlines_;
   bool outlines_old_ = true, live_ = false, image_old_ = false;

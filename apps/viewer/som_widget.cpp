@@ -173,7 +173,9 @@ void SomWidget::paint_bar(QPainter& painter, const Frame& frame) {
   scale.lower = u.values.minCoeff();
   scale.upper = u.values.maxCoeff();
   const double width = 0.6 * frame.area.width();
-  const QRectF bar(frame.area.center().x() - width / 2, height() - kFoot + 8, width, 10);
+  const double foot = frame.to_widget(0.0, map_->places.col(1).maxCoeff() + 0.62).y();
+  const QRectF bar(frame.area.center().x() - width / 2,
+                   std::min<double>(foot, height() - kFoot) + 8, width, 10);
   QLinearGradient gradient(bar.topLeft(), bar.topRight());
   for (int n = 0; n <= 32; ++n) gradient.setColorAt(n / 32.0, to_qt(color_at(scale.map, n / 32.0)));
   painter.fillRect(bar, gradient);
@@ -193,7 +195,7 @@ void SomWidget::paint_bar(QPainter& painter, const Frame& frame) {
 
 void SomWidget::paint_units(QPainter& painter, const Frame& frame) {
   QFont small = font();
-  small.setPixelSize(std::clamp(static_cast<int>(0.19 * frame.scale), 6, 15));
+  small.setPixelSize(std::clamp(static_cast<int>(0.2 * frame.scale), 8, 15));
   painter.setFont(small);
   const QFontMetricsF metrics(small);
   const double wide = 0.92 * frame.scale;
@@ -205,7 +207,7 @@ void SomWidget::paint_units(QPainter& painter, const Frame& frame) {
     painter.setBrush(empty ? faint_.darker(background_.lightness() < 128 ? 240 : 90)
                            : to_qt(light_color(map_->model.labels[at])));
     painter.drawPolygon(cell(frame, x, y, 1.0));
-    if (empty || frame.scale < 34.0) continue;
+    if (empty || frame.scale < 28.0) continue;
     const QPointF middle = frame.to_widget(x, y);
     const QRectF line(middle.x() - wide / 2, middle.y() - metrics.height(), wide, metrics.height());
     painter.setPen(kInk);

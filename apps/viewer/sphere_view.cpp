@@ -247,7 +247,8 @@ void SphereView::show_geometry() {
   }
   if (look_) {
     look_ = false;
-    scenes_[0]->look(mapped_->mesh.space.empty() ? LookFrom::upright : LookFrom::oblique);
+    scenes_[0]->look(mapped_->mesh.space.empty() ? LookFrom::upright : LookFrom::oblique,
+                     scenes_[1]);
   }
   link(0);
   const QLocale locale(QLocale::English);

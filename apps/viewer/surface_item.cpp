@@ -30,6 +30,19 @@ QString SurfaceView::Item::title() const {
   return QString(below ? "below %1" : "above %1").arg(isovalue, 0, 'g', 6);
 }
 
+const SliceLines& SurfaceView::Item::contour(const zmc::VolumeView& volume,
+                                             const SliceGeometry& geometry, std::int64_t slice) {
+  const auto axis = static_cast<std::size_t>(geometry.axis());
+  if (shown.stage == IsoStage::coarse && shown.of.slices[axis] == slice)
+    return shown.contours[axis];
+  // Cells of eight zeros take their sign from the whole volume.
+  const bool exact = shown.counts.all_zero_cells > 0;
+  Contour& known = contours[axis];
+  if (known.slice != slice || known.isovalue != isovalue || known.exact != exact)
+    known = {slice, isovalue, exact, slice_contour(volume, geometry, isovalue, slice, exact)};
+  return known.lines;
+}
+
 nlohmann::json SurfaceView::Item::state() const {
   nlohmann::json state{
       {"color", color.name().toStdString()}, {"opacity", opacity}, {"visible", visible}};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -34,7 +35,20 @@ struct SurfaceView::Item {
   std::uint64_t wished = 0;  ///< Number of the newest full wish.
   IsoResult shown;           ///< Its numbers; the data is with the surface.
 
+  /// Contours of the slice that was asked for last across each axis.
+  struct Contour {
+    std::int64_t slice = -1;
+    double isovalue = 0.0;
+    bool exact = false;
+    SliceLines lines;
+  };
+  std::array<Contour, 3> contours;
+
   Item();
+  /// Where the isosurface cuts a slice of the volume: while a coarse surface is shown, as the
+  /// worker found it.
+  [[nodiscard]] const SliceLines& contour(const zmc::VolumeView& volume,
+                                          const SliceGeometry& geometry, std::int64_t slice);
   /// What the list says of it.
   [[nodiscard]] QString title() const;
   [[nodiscard]] nlohmann::json state() const;

@@ -21,6 +21,7 @@
 
 #include "document.hpp"
 #include "four_up.hpp"
+#include "model/heap.hpp"
 #include "model/isovalues.hpp"
 #include "model/surface_data.hpp"
 #include "scene_widget.hpp"
@@ -32,6 +33,7 @@ namespace shape3d::apps::viewer {
 namespace {
 
 constexpr int kSliderSteps = 1000;
+constexpr int kTidy = 1000;   // ms after a full surface, when drawing has freed what it needed
 constexpr int kSettle = 250;  // ms without a change of the value before the full surface is made
 
 }  // namespace
@@ -41,6 +43,10 @@ SurfaceView::SurfaceView(Document& document)
   settle_ = new QTimer(this);
   settle_->setSingleShot(true);
   settle_->setInterval(kSettle);
+  tidy_ = new QTimer(this);
+  tidy_->setSingleShot(true);
+  tidy_->setInterval(kTidy);
+  connect(tidy_, &QTimer::timeout, this, [] { trim_heap(); });
   make_panel();
   make_shortcuts();
   four_up_->set_planes_visible(false);
@@ -51,9 +57,7 @@ SurfaceView::SurfaceView(Document& document)
       if (item->mesh || !item->visible) continue;
       Outline outline;
       outline.color = item->color;
-      // Cells of eight zeros take their sign from the whole volume.
-      outline.lines = slice_contour(volume_->volume.view, geometry, item->isovalue, slice,
-                                    item->shown.counts.all_zero_cells > 0);
+      outline.lines = item->contour(volume_->volume.view, geometry, slice);
       outlines.push_back(std::move(outline));
     }
     return outlines;
@@ -300,7 +304,10 @@ void SurfaceView::request(Item& item, bool coarse) {
     return;
   }
   if (coarse) {
-    worker_->request_coarse(item.id, wish_of(item));
+    IsoWish wish = wish_of(item);
+    for (int axis = 0; contours_->isChecked() && axis < 3; ++axis)
+      wish.slices[static_cast<std::size_t>(axis)] = four_up_->slice(axis)->slice();
+    worker_->request_coarse(item.id, wish);
   } else {
     item.wished = worker_->request_full(item.id, wish_of(item));
   }
@@ -318,6 +325,7 @@ void SurfaceView::take(IsoResult result) {
     emit busy_changed();
     return;
   }
+  if (result.stage != IsoStage::coarse) tidy_->start();
   if (result.stage == IsoStage::detail) {
     if (result.wish == item->newest && item->shown.stage == IsoStage::full && item->shown.data)
       item->surface->set_geometry(item->shown.data, result.data);
@@ -338,7 +346,7 @@ void SurfaceView::take(IsoResult result) {
     four_up_->scene()->look(LookFrom::oblique);
   }
   four_up_->scene()->redraw();
-  if (item->shown.counts.all_zero_cells > 0) four_up_->refresh_outlines();
+  four_up_->refresh_outlines();
   show_facts();
   emit busy_changed();
 }
@@ -380,7 +388,7 @@ void SurfaceView::set_isovalue(double isovalue, bool dragging) {
     isovalue_->setValue(isovalue);
   }
   list_->currentItem()->setText(item->title());
-  four_up_->refresh_outlines();
+  if (!worker_ || !worker_->busy()) four_up_->refresh_outlines();  // else with the surface
 }
 
 void SurfaceView::add_surface() {
@@ -454,7 +462,9 @@ void SurfaceView::show_list() {
   for (const auto& item : items_) {
     QPixmap swatch(14, 14);
     swatch.fill(item->color);
-    list_->addItem(new QListWidgetItem(QIcon(swatch), item->title()));
+    QIcon icon(swatch);
+    icon.addPixmap(swatch, QIcon::Selected);  // not tinted
+    list_->addItem(new QListWidgetItem(icon, item->title()));
   }
   list_->setCurrentRow(std::min(row, list_->count() - 1));
   show_selected();
@@ -511,85 +521,6 @@ void SurfaceView::show_facts() {
     }
   }
   facts_->setText(text);
-}
-
-nlohmann::json SurfaceView::state() const {
-  nlohmann::json surfaces = nlohmann::json::array();
-  for (const auto& item : items_) surfaces.push_back(item->state());
-  return {{"surfaces", surfaces},
-          {"selected", list_->currentRow()},
-          {"contours", contours_->isChecked()},
-          {"marks", marks_->isChecked()},
-          {"method", method_->currentIndex() == 1 ? "flying-edges" : "zmc"},
-          {"layout", four_up_->state()}};
-}
-
-void SurfaceView::set_state(const nlohmann::json& state) {
-  if (state.contains("method")) {
-    const std::string method = state["method"].get<std::string>();
-    if (method != "zmc" && method != "flying-edges")
-      throw std::invalid_argument("method is \"" + method + "\"; expected zmc or flying-edges");
-    method_->setCurrentIndex(method == "flying-edges" ? 1 : 0);
-  }
-  if (state.contains("marks")) marks_->setChecked(state["marks"].get<bool>());
-  if (state.contains("contours")) contours_->setChecked(state["contours"].get<bool>());
-  if (state.contains("surfaces")) set_surfaces(state["surfaces"]);
-  if (state.contains("selected")) {
-    const int row = state["selected"].get<int>();
-    if (row < list_->count()) list_->setCurrentRow(row);
-  }
-  if (state.contains("isovalue")) {
-    const double isovalue = state["isovalue"].get<double>();
-    if (!std::isfinite(isovalue))
-      throw std::invalid_argument("isovalue is not finite; expected a number");
-    set_isovalue(isovalue, false);
-  }
-  if (state.contains("layout")) {
-    four_up_->set_state(state["layout"]);
-    if (state["layout"].contains("camera")) ready_to_look_ = false;
-  }
-  request_all();
-  show_list();
-  show_marks();
-  four_up_->refresh_outlines();
-}
-
-void SurfaceView::set_surfaces(const nlohmann::json& surfaces) {
-  // Isosurfaces in their order; those that are more go, those that are missing are made.
-  std::size_t at = 0;
-  for (const nlohmann::json& given : surfaces) {
-    Item* item = nullptr;
-    if (given.contains("mesh")) {
-      for (const auto& other : items_) {
-        if (other->mesh && other->mesh->path == given["mesh"].get<std::string>())
-          item = other.get();
-      }
-      if (item == nullptr) continue;  // the mesh has been closed
-    } else {
-      const double isovalue = given.at("isovalue").get<double>();
-      if (!std::isfinite(isovalue))
-        throw std::invalid_argument("isovalue is not finite; expected a number");
-      while (at < items_.size() && items_[at]->mesh) ++at;
-      if (at == items_.size()) add_item(isovalue);
-      item = items_[at++].get();
-      item->isovalue = isovalue;
-      if (given.contains("inside")) item->below = given["inside"].get<std::string>() == "below";
-    }
-    if (given.contains("color")) {
-      const QColor color(QString::fromStdString(given["color"].get<std::string>()));
-      if (!color.isValid())
-        throw std::invalid_argument("color is " + given["color"].dump() + "; expected \"#rrggbb\"");
-      item->color = color;
-    }
-    if (given.contains("opacity"))
-      item->opacity = std::clamp(given["opacity"].get<double>(), 0.0, 1.0);
-    if (given.contains("visible")) item->visible = given["visible"].get<bool>();
-    style(*item);
-  }
-  for (std::size_t n = items_.size(); n-- > at;) {
-    if (!items_[n]->mesh) drop(n);
-  }
-  show_list();
 }
 
 void SurfaceView::reset() {

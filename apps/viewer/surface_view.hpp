@@ -100,6 +100,7 @@ class SurfaceView : public View {
   QComboBox* method_ = nullptr;
   QLabel* facts_ = nullptr;
   QTimer* settle_ = nullptr;
+  QTimer* tidy_ = nullptr;  // after a full surface has been drawn
 
   std::shared_ptr<const OpenVolume> volume_;
   std::vector<std::unique_ptr<Item>> items_;

@@ -50,6 +50,8 @@ TEST_CASE("wrong command lines: status 2", "[program][error]") {
   BadInput bad;
   bad.expect(2, {}, "subcommand is required");
   bad.expect(2, {"extrude"}, "unknown command 'extrude', expected info, extract, contours, check,");
+  bad.expect(2, {"library"}, "'library' is not all of a command, expected add, list, info,");
+  bad.expect(2, {"library", "ad"}, "unknown command 'ad', expected add, list, info, remove,");
   bad.expect(2, {"extract"}, "VOLUME is required");
   bad.expect(2, {"extract", "ball.mhd", "-o", "a.ply"}, "--iso is required");
   bad.expect(2, {"extract", "ball.mhd", "--iso", "0"}, "--output is required");

@@ -349,7 +349,8 @@ TEST_CASE("train refuses command lines that make no sense", "[train]") {
        "--clusters 5: expected at most"},
       {{"train", "som", "known.h5", "--descriptor", "phrenology", "-o", "x"},
        "--descriptor phrenology: "},
-      {{"train", "tree", "known.h5", "-o", "x"}, "A subcommand is required"},
+      {{"train", "tree", "known.h5", "-o", "x"},
+       "unknown command 'tree', expected svm, som or metric"},
   };
   for (const auto& [arguments, sentence] : wrong) {
     INFO(sentence);

@@ -180,4 +180,32 @@ TEST_CASE("what cannot be extracted is a sentence", "[viewer][worker]") {
   CHECK(result.error.find("isovalue") != std::string::npos);
 }
 
+TEST_CASE("coarse surfaces come with their contours on the slices", "[viewer][worker]") {
+  Results results;
+  IsoWorker worker(distance_volume(100), results.taker());
+  IsoWish wish;
+  wish.isovalue = 30.0;
+  wish.inside = zmc::Inside::below;
+  wish.slices = {50, -1, 70};
+  const IsoResult coarse = results.wait(worker.request_coarse(1, wish), IsoStage::coarse);
+  REQUIRE(coarse.data);
+  CHECK(coarse.contours[1].empty());
+  for (const auto& [axis, slice] : {std::pair{0, 50.0}, {2, 70.0}}) {
+    INFO("axis " << axis);
+    // Circles of the sphere; the nearest coarse slice is at most two samples away.
+    const double away = slice - 49.5, least = std::sqrt(900.0 - (away + 2.0) * (away + 2.0)),
+                 most = std::sqrt(900.0 - std::pow(std::max(0.0, away - 2.0), 2));
+    REQUIRE(coarse.contours[static_cast<std::size_t>(axis)].size() == 1);
+    const auto& line = coarse.contours[static_cast<std::size_t>(axis)].front();
+    CHECK(line.size() > 60);
+    CHECK(line.front() == line.back());
+    for (const auto& [x, y] : line) {
+      const double radius = std::hypot(x - 50.0, y - 50.0);
+      CHECK(radius > least - 0.2);
+      CHECK(radius < most + 0.2);
+    }
+  }
+  CHECK(results.wait(worker.request_full(1, wish), IsoStage::full).contours[0].empty());
+}
+
 }  // namespace

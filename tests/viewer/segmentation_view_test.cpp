@@ -88,7 +88,12 @@ TEST_CASE("segmenting finds the ball while the front is seen moving", "[viewer][
   QTest::mouseClick(shown.control<QPushButton>("run"), Qt::LeftButton);
   CHECK(shown.view_.busy());
   CHECK(shown.control<QPushButton>("cancel")->isEnabled());
+  REQUIRE(shown.wait_until([&] { return shown.view_.frames() > 0 || !shown.view_.busy(); }));
+  CHECK(shown.view_.frames() > 0);
+  CHECK(shown.control<QLabel>("stage")->text().startsWith("evolution, iteration"));
+  const QImage moving = WindowFixture::grab(shown.four->slice(2));
   REQUIRE(shown.settle());
+  CHECK(changed_pixels(before, moving) > 100);
   const SegmentOutcome& found = shown.view_.outcome();
   REQUIRE(found.segmentation);
   CHECK(found.error.empty());
@@ -106,6 +111,9 @@ TEST_CASE("segmenting finds the ball while the front is seen moving", "[viewer][
   CHECK(edge_count(WindowFixture::grab(shown.view_.overlap())) > 300);
   QTest::keyClick(shown.view_.content(), Qt::Key_G);
   CHECK_FALSE(shown.view_.histogram()->isVisible());
+  // The slice is as large as before now: the front has moved on since.
+  REQUIRE(shown.settle());
+  CHECK(changed_pixels(moving, WindowFixture::grab(shown.four->slice(2))) > 100);
 }
 
 TEST_CASE("a run is cancelled", "[viewer][segmentation]") {

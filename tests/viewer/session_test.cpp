@@ -2,6 +2,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <system_error>
+
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -13,8 +17,21 @@ using namespace shape3d::apps::viewer;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
+// Takes a folder away when the process ends.
+struct Remover {
+  fs::path folder;
+  ~Remover() {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    fs::remove_all(folder.string() + "-moved", ignored);
+  }
+};
+
+// One a process: test cases run side by side.
 fs::path fresh_folder() {
-  const fs::path folder = fs::temp_directory_path() / "shape3d-session-test";
+  const fs::path folder =
+      fs::temp_directory_path() / ("shape3d-session-test-" + std::to_string(getpid()));
+  static const Remover remover{folder};
   fs::remove_all(folder);
   fs::create_directories(folder / "data");
   return folder;

@@ -1,8 +1,9 @@
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
+
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -15,9 +16,21 @@ using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 namespace fs = std::filesystem;
 
+// Takes a folder away when the process ends.
+struct Remover {
+  fs::path folder;
+  ~Remover() {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    fs::remove_all(folder.string() + "-moved", ignored);
+  }
+};
+
+// One a process: test cases run side by side.
 fs::path fresh_folder() {
   const fs::path folder =
-      fs::temp_directory_path() / ("shape3d-viewer-program-test-" + std::to_string(::getpid()));
+      fs::temp_directory_path() / ("shape3d-viewer-program-test-" + std::to_string(getpid()));
+  static const Remover remover{folder};
   fs::remove_all(folder);
   fs::create_directories(folder);
   make_volume(folder / "ball.mhd", {32, 32, 32}, ball(32, 10.0));

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <QVTKOpenGLNativeWidget.h>
+#include <vtkRenderer.h>
 #include <QApplication>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -132,7 +133,72 @@ TEST_CASE("presets set the windows that radiologists use", "[viewer][volume]") {
     preset->setCurrentIndex(row);
     emit preset->activated(row);
     CHECK(fixture.document().window() == window);
+    // The grey at a place, whose value is i + 100 j, is how far that is between the window's ends.
+    SliceWidget* axial = view.four_up()->slice(2);
+    const QPoint at = axial->pixel_of({10.0, 1.0, 15.0}).toPoint();
+    const Eigen::Vector3d place = axial->lattice_at(QPointF(at) + QPointF(0.5, 0.5));
+    const double value = place[0] + 100.0 * place[1];
+    CHECK(qGray(WindowFixture::grab(axial).pixel(at)) ==
+          Approx(255.0 * (value - window.black()) / window.width).margin(4.0));
   }
+}
+
+// How far the corners of the volume reach towards the sides of a scene: 1 is the side.
+double reach(const FourUp& four, const Document& document) {
+  SceneWidget* scene = four.scene();
+  vtkRenderer* renderer = scene->renderer();
+  const auto& view = document.volume()->volume.view;
+  double most = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    Eigen::Vector3d p;
+    for (int axis = 0; axis < 3; ++axis)
+      p[axis] = (corner >> axis & 1) != 0
+                    ? static_cast<double>(view.dims[static_cast<std::size_t>(axis)]) - 0.5
+                    : -0.5;
+    p = view.world(p);
+    renderer->WorldToView(p[0], p[1], p[2]);
+    most = std::max({most, std::abs(p[0]), std::abs(p[1])});
+  }
+  return most;
+}
+
+TEST_CASE("the volume fills the scene, also after its size has changed", "[viewer][volume]") {
+  WindowFixture fixture;
+  fixture.document().set_volume(ramp());
+  REQUIRE(fixture.settle());
+  const FourUp& four = *fixture.view<VolumeView>("volume").four_up();
+  CHECK(reach(four, fixture.document()) == Approx(0.92).margin(0.01));
+  fixture.window().resize(900, 720);
+  REQUIRE(fixture.settle());
+  CHECK(reach(four, fixture.document()) == Approx(0.92).margin(0.01));
+  // A camera that the user has moved stays.
+  drag(four.scene()->gl_widget(), {60, 60}, {90, 70}, Qt::LeftButton);
+  REQUIRE(fixture.settle());
+  const std::vector<double> camera = camera_numbers(four.scene()->camera());
+  fixture.window().resize(1280, 720);
+  REQUIRE(fixture.settle());
+  CHECK(camera_numbers(four.scene()->camera()) == camera);
+}
+
+TEST_CASE("what is black in the slices is left out of the scene", "[viewer][volume]") {
+  WindowFixture fixture;
+  // A white ball in the middle of the air.
+  fixture.document().set_volume(
+      made_volume({40, 40, 40}, [](std::int64_t i, std::int64_t j, std::int64_t k) {
+        return Eigen::Vector3d(double(i) - 19.5, double(j) - 19.5, double(k) - 19.5).norm() < 9.0
+                   ? 1000.0
+                   : -1000.0;
+      }));
+  fixture.document().set_window({0.0, 1000.0});
+  REQUIRE(fixture.settle());
+  SceneWidget* scene = fixture.view<VolumeView>("volume").four_up()->scene();
+  const QImage picture = WindowFixture::grab(scene);
+  CHECK(count_color(picture, Qt::white, 10) > 500);
+  CHECK(count_color(picture, Qt::black, 8) < 50);
+  fixture.document().set_window({-1500.0, 1000.0});  // the air is white, too
+  REQUIRE(fixture.settle());
+  CHECK(count_color(WindowFixture::grab(scene), Qt::white, 10) >
+        4 * count_color(picture, Qt::white, 10));
 }
 
 TEST_CASE("the wheel goes through slices, Ctrl and the wheel zoom round the mouse",

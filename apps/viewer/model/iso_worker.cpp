@@ -1,5 +1,6 @@
 #include "iso_worker.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -15,6 +16,7 @@
 
 #include "coarse_volume.hpp"
 #include "flying_edges.hpp"
+#include "heap.hpp"
 #include "surface_data.hpp"
 
 namespace shape3d::apps::viewer {
@@ -74,6 +76,7 @@ struct IsoWorker::State {
       } else {
         extract(task, view, result);
       }
+      if (task.stage == IsoStage::coarse) result.contours = contours_of(task.wish);
     } catch (const std::bad_alloc&) {
       result.error = "There is not enough memory for this surface";
     } catch (const std::exception& error) {
@@ -87,8 +90,13 @@ struct IsoWorker::State {
     }
     vtkSmartPointer<vtkPolyData> own;
     if (task.stage == IsoStage::full && result.data) own = twin_of(result.data);
+    const bool large = task.stage == IsoStage::full;
     done(std::move(result));  // from now on the surface belongs to another thread
-    if (!own) return;
+    if (own) report_detail(task, own);
+    if (large) trim_heap();
+  }
+
+  void report_detail(const Task& task, vtkPolyData* own) {
     IsoResult detail;
     detail.surface = task.surface;
     detail.wish = task.number;
@@ -107,7 +115,11 @@ struct IsoWorker::State {
     options.progress = [this](double) { return !cancelled; };
     Surface surface;
     const Clock::time_point start = Clock::now();
-    const zmc::Status status = extractor.extract(view, task.wish.isovalue, options, surface);
+    // Working memory of the whole volume is not kept.
+    const zmc::Status status =
+        task.stage == IsoStage::coarse
+            ? extractor.extract(view, task.wish.isovalue, options, surface)
+            : zmc::Extractor().extract(view, task.wish.isovalue, options, surface);
     result.seconds = seconds_since(start);
     if (status == zmc::Status::cancelled) cancelled = true;
     if (status != zmc::Status::ok) {
@@ -123,6 +135,19 @@ struct IsoWorker::State {
       result.zero_faces = zero_faces(surface);
     }
     result.data = surface_data(std::move(surface));
+  }
+
+  std::array<SliceLines, 3> contours_of(const IsoWish& wish) const {
+    std::array<SliceLines, 3> contours;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      if (wish.slices[a] < 0) continue;
+      const std::int64_t plane =
+          std::min(wish.slices[a] / small->factors[a], small->view.dims[a] - 1);
+      contours[a] = part_contour(volume->view, SliceGeometry(volume->view, axis), small->view,
+                                 wish.isovalue, plane);
+    }
+    return contours;
   }
 
   std::uint64_t add(IsoStage stage, int surface, const IsoWish& wish) {
@@ -150,7 +175,7 @@ struct IsoWorker::State {
   std::shared_ptr<const Volume> volume;
   std::function<void(IsoResult)> done;
   std::optional<CoarseVolume> small;  // the thread's own, as the next
-  zmc::Extractor extractor;
+  zmc::Extractor extractor;           // of coarse surfaces
 
   mutable std::mutex mutex;
   std::condition_variable changed;

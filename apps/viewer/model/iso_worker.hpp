@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <shape3d/zmc/surface.hpp>
 
 #include "common/volume.hpp"
+#include "slice_image.hpp"
 
 class vtkPolyData;
 
@@ -21,6 +23,8 @@ struct IsoWish {
   zmc::Inside inside = zmc::Inside::above;
   bool flying_edges = false;  ///< vtkFlyingEdges3D instead of ZMC.
   bool marks = false;         ///< Also zero faces and non-manifold edges.
+  /// Slices across each axis on which coarse surfaces are to have contours; -1: none.
+  std::array<std::int64_t, 3> slices{-1, -1, -1};
 };
 
 /// How far a result is.
@@ -40,6 +44,9 @@ struct IsoResult {
   std::int64_t vertices = 0, triangles = 0;
   zmc::Counts counts;  ///< Of ZMC's full surface.
   std::int64_t nonmanifold_edges = 0;
+  /// Of coarse surfaces: where ZMC's cuts the slices of the wish, or the nearest ones of the coarse
+  /// volume.
+  std::array<SliceLines, 3> contours;
   double seconds = 0.0;  ///< Of the extraction.
   std::string error;     ///< A sentence; empty: none.
 };
@@ -50,7 +57,7 @@ struct IsoResult {
 class IsoWorker {
  public:
   /// Coarse volumes have at most this many samples.
-  static constexpr std::int64_t kCoarseSamples = std::int64_t{1} << 19;
+  static constexpr std::int64_t kCoarseSamples = std::int64_t{1} << 18;
   /// Triangles of what is drawn while turning.
   static constexpr std::int64_t kDetailTriangles = 40'000;
 

@@ -110,18 +110,14 @@ std::vector<std::uint8_t> slice_image(const zmc::VolumeView& volume, const Slice
   return image;
 }
 
-std::vector<std::vector<std::array<double, 2>>> slice_contour(const zmc::VolumeView& volume,
-                                                              const SliceGeometry& geometry,
-                                                              double isovalue, std::int64_t slice,
-                                                              bool exact) {
+SliceLines slice_contour(const zmc::VolumeView& volume, const SliceGeometry& geometry,
+                         double isovalue, std::int64_t slice, bool exact) {
   return part_contour(volume, geometry, volume, isovalue, slice, exact);
 }
 
-std::vector<std::vector<std::array<double, 2>>> part_contour(const zmc::VolumeView& whole,
-                                                             const SliceGeometry& geometry,
-                                                             const zmc::VolumeView& part,
-                                                             double isovalue, std::int64_t slice,
-                                                             bool exact) {
+SliceLines part_contour(const zmc::VolumeView& whole, const SliceGeometry& geometry,
+                        const zmc::VolumeView& part, double isovalue, std::int64_t slice,
+                        bool exact) {
   zmc::Options options;
   options.non_finite = zmc::NonFinite::mask;
   zmc::VolumeView layer = part;
@@ -137,7 +133,7 @@ std::vector<std::vector<std::array<double, 2>>> part_contour(const zmc::VolumeVi
   }
   const zmc::Contour contour = zmc::contour(layer, isovalue, geometry.axis(), plane, options);
   const Eigen::Matrix3d to_lattice = (whole.direction * whole.spacing.asDiagonal()).inverse();
-  std::vector<std::vector<std::array<double, 2>>> lines;
+  SliceLines lines;
   for (const Polyline& line : join_edges(contour)) {
     std::vector<std::array<double, 2>> points;
     for (const std::int32_t v : line.vertices)

@@ -12,6 +12,9 @@
 
 namespace shape3d::apps::viewer {
 
+/// Lines as places of SliceGeometry.
+using SliceLines = std::vector<std::vector<std::array<double, 2>>>;
+
 /// How the slices of a volume across one axis stand on the screen: one pixel a sample, turned as
 /// SlicePlane turns them (a patient's left to the right, posterior down, superior up).
 class SliceGeometry {
@@ -58,15 +61,14 @@ class SliceGeometry {
 /// (zmc::contour), as places of SliceGeometry; closed lines repeat their first point.
 /// @param exact  Classify the whole volume, as cells of eight samples equal to the isovalue need,
 ///        whose sign comes from around; else only the layer of cells beside the slice.
-[[nodiscard]] std::vector<std::vector<std::array<double, 2>>> slice_contour(
-    const zmc::VolumeView& volume, const SliceGeometry& geometry, double isovalue,
-    std::int64_t slice, bool exact = false);
+[[nodiscard]] SliceLines slice_contour(const zmc::VolumeView& volume, const SliceGeometry& geometry,
+                                       double isovalue, std::int64_t slice, bool exact = false);
 
 /// The same of a part of the volume, or of other samples in its place, over the slice of the whole.
 /// @param part   Its axes are those of the whole.
 /// @param slice  Of the part.
-[[nodiscard]] std::vector<std::vector<std::array<double, 2>>> part_contour(
-    const zmc::VolumeView& whole, const SliceGeometry& geometry, const zmc::VolumeView& part,
-    double isovalue, std::int64_t slice, bool exact = false);
+[[nodiscard]] SliceLines part_contour(const zmc::VolumeView& whole, const SliceGeometry& geometry,
+                                      const zmc::VolumeView& part, double isovalue,
+                                      std::int64_t slice, bool exact = false);
 
 }  // namespace shape3d::apps::viewer

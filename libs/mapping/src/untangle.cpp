@@ -130,6 +130,7 @@ bool untangle_patch(Patch& patch) {
   const PatchEnergy energy(patch);
   Eigen::SparseMatrix<double> matrix;
   Eigen::VectorXd gradient;
+  constexpr double kLargestDamping = 1e9;
   double damping = 1e-4;
   int after = 0;  // steps since all determinants are positive: they round the patch off
   for (int iteration = 0; iteration < 200 && after < 12; ++iteration) {
@@ -155,9 +156,10 @@ bool untangle_patch(Patch& patch) {
           moved = true;
         }
       }
-      damping = moved ? std::max(damping * 0.2, 1e-9) : std::min(damping * 6, 1e9);
+      damping = moved ? std::max(damping * 0.2, 1e-9) : std::min(damping * 6, kLargestDamping);
     }
-    if (!moved && least > 0) break;
+    // With the largest damping the next iteration would try the same steps.
+    if (!moved && (least > 0 || damping >= kLargestDamping)) break;
   }
   return energy.smallest_determinant(patch.x) > 0;
 }
@@ -171,17 +173,23 @@ class Untangler {
     }
   }
 
-  /// Makes the flipped triangles around triangle `seed` positive.
+  /// Makes the flipped triangles that hang together with `seed` positive. Those that it could not
+  /// are not tried again in this pass.
   bool repair(std::int32_t seed) {
-    std::vector<std::int32_t> triangles = grown(flipped_patch(seed));
+    if (failed_.count(seed) > 0) return false;
+    const std::vector<std::int32_t> flipped = flipped_patch(seed);
+    std::vector<std::int32_t> triangles = grown(flipped);
     constexpr int kRings = 7;
     for (int ring = 0; ring < kRings; ++ring) {
       triangles = grown(triangles);
-      if (10 * triangles.size() > 9 * static_cast<std::size_t>(F_.rows())) return false;
+      if (10 * triangles.size() > 9 * static_cast<std::size_t>(F_.rows())) break;
       if (solve(triangles)) return true;
     }
+    failed_.insert(flipped.begin(), flipped.end());
     return false;
   }
+
+  void next_pass() { failed_.clear(); }
 
   /// Lowers the energy around a positive triangle.
   void relax(std::int32_t seed) {
@@ -304,6 +312,7 @@ class Untangler {
   const Twins& twins_;
   Points& S_;
   std::vector<std::int32_t> any_;
+  std::unordered_set<std::int32_t> failed_;
 };
 
 }  // namespace
@@ -329,11 +338,15 @@ Untangling untangle(const ConstPoints& V, const ConstTriangles& F, const Twins& 
   // A map that is flipped in large parts is beyond local repair.
   if (10 * result.found > F.rows()) return result;
   for (int pass = 0; pass < 3 && result.left > 0; ++pass) {
+    untangler.next_pass();
     for (const std::int32_t t : flipped) {
       if (!positive(F, S, t)) untangler.repair(t);
     }
+    const std::int64_t before = result.left;
     result.left = find();
+    if (result.left == before) break;
   }
+  if (result.left > 0) return result;  // no map to improve
   for (std::int32_t t = 0; t < F.rows(); ++t) {
     if (positive(F, S, t) && stretched(V, F, S, t)) untangler.relax(t);
   }
