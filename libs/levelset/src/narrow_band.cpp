@@ -53,7 +53,8 @@ NarrowBand::NarrowBand(const Lattice& lattice, Field psi, const Field& advance, 
   is_moving_.assign(count, 1);
   active_ = flagged(is_active_);
   spread(Far::cut, 0.0);
-  for (Tally& tally : tallies_) tally.volume_before = tally.mean = tally.now.volume;
+  for (Tally& tally : tallies_)
+    tally.volume_before = tally.window_start = tally.mean = tally.now.volume;
   for (Tally& tally : tallies_) tally.moving = kAllRows;
   for (std::size_t t = 0; t < count; ++t) is_moving_[t] = tallies_[t].beside.nodes > 0 ? 1 : 0;
   activate();
@@ -165,9 +166,11 @@ bool NarrowBand::is_moving(Tally& tally, double rest, bool window_end, Motion& m
       2.0 * static_cast<double>(width_) / std::max({tally.now.near, tally.beside.nodes / 2, 1});
   const double displacement = std::abs(tally.now.volume - tally.volume_before) * per_node;
   motion.greatest = std::max(motion.greatest, displacement);
+  tally.path += std::abs(tally.now.volume - tally.volume_before);
   // To and fro about the same place, as where an object is one node thin, is rest, too: a tile
-  // whose mean over a window is that of the window before is calm until it is half a node from
-  // there, and each time twice as far.
+  // that ends a window less than half of its path away from where it began, and whose mean over the
+  // window is that of the window before, is calm until it is half a node from there, and each time
+  // twice as far.
   if (tally.calm) {
     const double away = std::abs(tally.now.volume - tally.mean) * per_node;
     tally.calm = away <= std::ldexp(0.25 * lattice_.grid.spacing.minCoeff(), tally.calmed);
@@ -177,10 +180,13 @@ bool NarrowBand::is_moving(Tally& tally, double rest, bool window_end, Motion& m
     const double mean = tally.sum / kWindow;
     tally.sum = 0.0;
     if (!tally.calm) {
-      tally.calm = std::abs(mean - tally.mean) * per_node <= window_rest_;
+      tally.calm = std::abs(tally.now.volume - tally.window_start) < 0.5 * tally.path &&
+                   std::abs(mean - tally.mean) * per_node <= window_rest_;
       if (tally.calm) tally.calmed = std::min(tally.calmed + 1, 8);
       tally.mean = mean;
     }
+    tally.path = 0.0;
+    tally.window_start = tally.now.volume;
   }
   return displacement > rest && !tally.calm;
 }
@@ -197,6 +203,10 @@ NarrowBand::Motion NarrowBand::redistance(double rest) {
     near += tally.now.near;
     if (is_active_[t] == 0) {
       tally.sum = window_end ? 0.0 : tally.sum + tally.now.volume;
+      if (window_end) {
+        tally.path = 0.0;
+        tally.window_start = tally.now.volume;
+      }
       continue;
     }
     is_moving_[t] = is_moving(tally, rest, window_end, motion) ? 1 : 0;

@@ -64,6 +64,8 @@ class NarrowBand {
     double sum = 0.0;            // of the volumes of this window
     double mean = 0.0;           // volume of the last window
     int calmed = 0;              // how many times
+    double path = 0.0;           // sum of the changes of volume in this window
+    double window_start = 0.0;   // volume when it began
     bool calm = false;
     RowMask moving = kAllRows;  // rows where the front moves
     std::array<float, 64> row_volume{};
