@@ -74,7 +74,7 @@ void BoundaryDistance::note_ranges() {
   ranges_.resize(kRows * crossed_.size());
   parallel_for(lattice_.tiles.size(), threads_, [&](std::int64_t t) {
     const TileRows rows = lattice_.rows(lattice_.tiles[t]);
-    for_rows(rows, allowed_[t], [&](std::int64_t at, std::int64_t /*dense*/, int bit) {
+    for_rows(rows, allowed(t, passes_), [&](std::int64_t at, std::int64_t /*dense*/, int bit) {
       const float* center = intensity_.data() + at;
       RowRanges& ranges = ranges_[kRows * t + bit];
       ranges = rows.count == kTileX ? ranges_of(center, rows, kTileX)
@@ -88,7 +88,7 @@ void BoundaryDistance::choose_tiles(std::int64_t max_samples) {
   const std::int64_t every = max_samples > 0 ? (size + max_samples - 1) / max_samples : 1;
   constexpr std::int64_t kBar = 32;
   wanted_.resize(crossed_.size());
-  allowed_.assign(crossed_.size(), kAllRows);
+  within_.assign(kMostWithin + 1, std::vector<RowMask>(crossed_.size(), kAllRows));
   for (std::int64_t t = 0; t < lattice_.tiles.size(); ++t) {
     const Tile tile = lattice_.tiles[t];
     wanted_[t] = (tile.y0 / kBar + every / 2 * (tile.z0 / kBar)) % every == 0 ? 1 : 0;
@@ -97,8 +97,11 @@ void BoundaryDistance::choose_tiles(std::int64_t max_samples) {
   parallel_for(lattice_.tiles.size(), threads_, [&](std::int64_t t) {
     RowReach reach(lattice_.tiles, t,
                    [&](std::int64_t tile) { return wanted_[tile] != 0 ? kAllRows : RowMask{0}; });
-    for (int pass = 0; pass < std::min(passes_, 8); ++pass) reach.grow(true, true);
-    allowed_[t] = reach.mask();
+    within_[0][t] = reach.mask();
+    for (std::size_t n = 1; n <= kMostWithin; ++n) {
+      reach.grow(true, true);
+      within_[n][t] = reach.mask();
+    }
   });
 }
 
@@ -106,7 +109,7 @@ void BoundaryDistance::choose_tiles(std::int64_t max_samples) {
 void BoundaryDistance::find_crossed(const std::vector<double>& levels) {
   parallel_for(lattice_.tiles.size(), threads_, [&](std::int64_t t) {
     HalfRows crossed;
-    const RowMask all = lattice_.rows(lattice_.tiles[t]).all & allowed_[t];
+    const RowMask all = lattice_.rows(lattice_.tiles[t]).all & allowed(t, passes_);
     for (RowMask rest = all; rest != 0; rest &= rest - 1) {
       const int bit = __builtin_ctzll(rest);
       const RowRanges& ranges = ranges_[kRows * t + bit];
@@ -135,7 +138,7 @@ void BoundaryDistance::find_rows() {
       if (pass == 0) rows_[0][t] = crossed_[t].low | crossed_[t].high;
       for (int n = 1; n <= most; ++n) {
         reach.grow(true, true);
-        rows_[pass + n][t] = reach.mask() & allowed_[t];
+        rows_[pass + n][t] = reach.mask() & allowed(t, passes_);
       }
     });
     pass += most;
@@ -172,7 +175,7 @@ const std::vector<std::int64_t>& BoundaryDistance::compute(double lambda,
   };
   if (use_ == Use::once) {
     parallel_for(lattice_.tiles.size(), threads_,
-                 [&](std::int64_t t) { crossed_[t] = start(t, allowed_[t]).rows; });
+                 [&](std::int64_t t) { crossed_[t] = start(t, allowed(t, passes_)).rows; });
     find_rows();
   } else {
     // What was computed before must not bound what is computed now.
@@ -196,8 +199,9 @@ const std::vector<std::int64_t>& BoundaryDistance::compute(double lambda,
   for (int pass = 1; pass <= passes_; ++pass) {
     parallel_for(count, threads_, [&](std::int64_t n) {
       const Tile tile = lattice_.tiles[tiles_[n]];
-      relax_distance(lattice_.rows(tile), rows_[pass][tiles_[n]], from_.data(), lattice_.spacings,
-                     limit_, to_.data());
+      const RowMask mask = rows_[pass][tiles_[n]] & allowed(tiles_[n], passes_ - pass);
+      relax_distance(lattice_.rows(tile), mask, from_.data(), lattice_.spacings, limit_,
+                     to_.data());
       set_ghosts(lattice_, tile, to_.data());
     });
     std::swap(from_, to_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "padded_field.hpp"
@@ -50,9 +51,15 @@ class BoundaryDistance {
 
  private:
   void choose_tiles(std::int64_t max_samples);
+  /// Rows of a tile that still have a say in wanted ones before the last n passes.
+  [[nodiscard]] RowMask allowed(std::int64_t tile, int n) const {
+    return within_[static_cast<std::size_t>(std::min(n, kMostWithin))][tile];
+  }
   void note_ranges();
   void find_crossed(const std::vector<double>& levels);
   void find_rows();
+
+  static constexpr int kMostWithin = 8;
 
   Lattice lattice_;
   const IntensityModel& model_;
@@ -66,8 +73,9 @@ class BoundaryDistance {
   Field from_, to_;
   // By tile and row: of half a row and the nodes beside it. Empty for Use::once.
   std::vector<RowRanges> ranges_;
-  std::vector<char> wanted_;       // by tile
-  std::vector<RowMask> allowed_;   // by tile: rows that have a say in the wanted ones
+  std::vector<char> wanted_;  // by tile
+  /// By n and tile: rows up to n from wanted ones; a distance spreads by one a pass.
+  std::vector<std::vector<RowMask>> within_;
   std::vector<HalfRows> crossed_;  // by tile: halves of rows with a node beside the boundary
   std::vector<std::vector<RowMask>> rows_;  // by passes and tile: the rows that many nodes away
   std::vector<std::int64_t> tiles_;
