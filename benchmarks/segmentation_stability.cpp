@@ -1,8 +1,10 @@
 // How much a segmentation depends on the seed of a badly estimated intensity model, with and
 // without calibration: shape3d_segmentation_stability --help.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
+#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -72,6 +74,19 @@ apps::ChartBand band(const Series& series, const apps::Color& color) {
   return band;
 }
 
+// Ends of an axis with room for the legend above all points.
+std::array<double, 2> range_of(const std::vector<double>& a, const std::vector<double>& b) {
+  double least = a.front(), most = a.front();
+  for (const auto* values : {&a, &b}) {
+    for (const double value : *values) {
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+  }
+  const double room = most > least ? most - least : 1.0;
+  return {least - 0.1 * room, most + 0.4 * room};
+}
+
 std::string draw(const Series& with, const Series& without, const std::string& title) {
   const apps::Color blue{0.1, 0.35, 0.8}, orange{0.85, 0.45, 0.1};
   apps::Chart volumes;
@@ -79,6 +94,7 @@ std::string draw(const Series& with, const Series& without, const std::string& t
   volumes.x.title = "seed";
   volumes.y.title = "volume inside, ml";
   volumes.x.range = {{0.0, static_cast<double>(with.volumes.size()) + 1.0}};
+  volumes.y.range = range_of(with.volumes, without.volumes);
   volumes.bands = {band(without, orange), band(with, blue)};
   volumes.series = {points("as estimated (band: ± a deviation)", without.volumes, orange,
                            apps::ChartSeries::Marker::square),
@@ -86,6 +102,7 @@ std::string draw(const Series& with, const Series& without, const std::string& t
   apps::Chart levels = volumes;
   levels.title.clear();
   levels.bands.clear();
+  levels.y.range = range_of(with.levels, without.levels);
   levels.y.title = "intensity of the boundary, HU";
   levels.series[0] =
       points("as estimated", without.levels, orange, apps::ChartSeries::Marker::square);
@@ -103,13 +120,28 @@ nlohmann::ordered_json to_json(const Series& series) {
           {"levels", series.levels}};
 }
 
+Series series_of(const nlohmann::ordered_json& json) {
+  return {json.at("volumes").get<std::vector<double>>(),
+          json.at("levels").get<std::vector<double>>()};
+}
+
+void write_picture(const std::string& path, const std::string& png) {
+  apps::OutputFile file(path);
+  file.write(png);
+  file.commit();
+}
+
 int run(int argc, char** argv) {
   CLI::App program(
       "Segments a volume of int16 samples with many seeds and few iterations of stochastic EM.");
-  std::string path, picture, title = "Volume by seed";
+  std::string path, picture, report, title = "Volume by seed";
   std::vector<std::int64_t> roi;
   int seeds = 20, classes = 3, chain = 3, iterations = levelset::EvolveOptions{}.max_iterations;
-  program.add_option("VOLUME", path)->required();
+  CLI::Option* volume_option = program.add_option("VOLUME", path);
+  program
+      .add_option("--report", report,
+                  "Draw --picture from the standard output of an earlier run, and end")
+      ->excludes(volume_option);
   program.add_option("--roi", roi, "x0,x1,y0,y1,z0,z1")->delimiter(',')->expected(6);
   program.add_option("--seeds", seeds)->check(CLI::Range(2, 1000));
   program.add_option("--classes", classes)->check(CLI::Range(2, 8));
@@ -119,6 +151,13 @@ int run(int argc, char** argv) {
   program.add_option("--picture", picture, "The chart (.png)");
   program.add_option("--title", title);
   CLI11_PARSE(program, argc, argv);
+  if (!report.empty()) {
+    std::ifstream file(report);
+    const auto json = nlohmann::ordered_json::parse(file);
+    write_picture(picture,
+                  draw(series_of(json.at("calibrated")), series_of(json.at("estimated")), title));
+    return 0;
+  }
   const apps::Volume volume = apps::read_volume(path);
   if (volume.view.type != zmc::SampleType::int16)
     throw std::invalid_argument(path + ": expected int16 samples");
@@ -136,11 +175,7 @@ int run(int argc, char** argv) {
     add(image, options, false, seed, without);
     add(image, options, true, seed, with);
   }
-  if (!picture.empty()) {
-    apps::OutputFile file(picture);
-    file.write(draw(with, without, title));
-    file.commit();
-  }
+  if (!picture.empty()) write_picture(picture, draw(with, without, title));
   std::cout << nlohmann::ordered_json{{"seeds", seeds},
                                       {"classes", classes},
                                       {"chain", chain},

@@ -39,25 +39,4 @@ struct Mask {
 /// Cost: two exact distance transforms.
 [[nodiscard]] Mask open_by_ball(const Mask& mask, double radius);
 
-/// How nodule_at() cuts a nodule from what it touches, in parts of the radius of the largest ball
-/// in the mask that has the seed in its middle.
-struct NoduleOptions {
-  double vessel_share = 0.5;  ///< Vessels thinner than this are cut off; below 1.
-  double wall_share = 1.8;    ///< What holds a ball of this size is wall or a large organ; above 1.
-};
-
-struct Nodule {
-  Mask mask;                    ///< Empty of samples where the seed is outside the mask.
-  double inscribed_radius = 0;  ///< mm, of the ball round the seed that lies in the mask.
-  double vessel_radius = 0, wall_radius = 0;  ///< Radii of the two openings, mm.
-};
-
-/// The nodule of a mask at a seed: the mask without its opening by a large ball, which is the wall;
-/// opened by a small ball, which cuts vessels; the component at the seed.
-/// @param seed  A sample inside the mask, near the middle of the nodule: the ball round the best
-///        sample within half the ball of the seed is taken.
-/// @throws std::invalid_argument  the seed is not within the lattice; a share is out of range.
-[[nodiscard]] Nodule nodule_at(const Mask& mask, const std::array<std::int64_t, 3>& seed,
-                               const NoduleOptions& options = {});
-
 }  // namespace shape3d::apps

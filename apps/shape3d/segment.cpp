@@ -15,8 +15,12 @@ namespace shape3d::apps {
 namespace {
 
 constexpr int kMostClasses = 8;
+// The half way between what is at the seed and what is round it is known better than a mixture of a
+// region: the search stays near it, away from stronger edges of what else is in the box.
+constexpr double kLocalScope = 0.1;
 
 int class_count(const std::string& word) {
+  if (word.empty()) return levelset::MixtureOptions{}.classes;
   if (word == "auto") return 0;
   const auto count = parse_integer(word);
   if (!count || *count < 1 || *count > kMostClasses)
@@ -94,8 +98,10 @@ void check_numbers(const SegmentArguments& arguments) {
 void add_model_options(CLI::App& command, SegmentArguments& arguments) {
   levelset::SegmentOptions& options = arguments.options;
   command
-      .add_option("--classes", arguments.classes,
-                  "Gaussians of the intensity model, 1 to 8, or auto: by BIC (default 3)")
+      .add_option(
+          "--classes", arguments.classes,
+          "Gaussians of the intensity model, 1 to 8, or auto: by BIC (default 3; with --nodule "
+          "two: what is at the seed point and what is round it)")
       ->type_name("N|auto");
   command
       .add_option("--inside", arguments.inside,
@@ -153,7 +159,7 @@ void add_evolution_options(CLI::App& command, SegmentArguments& arguments) {
       .add_option(
           "--max-scope", options.calibration.max_scope,
           "The scope is at most this share: less keeps to boundaries near the one estimated "
-          "(default 0.9)")
+          "(default 0.9; with --nodule 0.1)")
       ->type_name("X");
   command
       .add_option("--curvature", options.evolution.curvature, "Weight of curvature, mm (default 0)")
@@ -202,7 +208,8 @@ void add_region_options(CLI::App& command, SegmentArguments& arguments) {
       ->type_name("x,y,z");
   command
       .add_option("--radius", arguments.radius,
-                  "Start from a sphere round the seed point instead of the box, mm")
+                  "Start from a sphere round the seed point instead of the box, mm; with --nodule: "
+                  "the radius of the nodule, about")
       ->type_name("R");
   command.add_flag("--keep-connected", arguments.keep_connected,
                    "Keep only the component at the seed point");
@@ -287,16 +294,17 @@ void add_segment(CLI::App& app, Settings& settings) {
   command->footer(
       "Examples:\n"
       "  shape3d segment chest/ --roi 110,400,120,500,0,62 -o lungs.nii.gz --inside dark\n"
-      "  shape3d segment chest.nrrd --roi 200,240,180,220,20,45 --seed-point 220,200,32 --nodule "
-      "-o nodule.nrrd\n"
+      "  shape3d segment chest.nrrd --seed-point 220,200,32 --radius 6 --nodule -o nodule.nrrd\n"
       "      --mesh nodule.ply --truth drawn.nrrd --plot plots\n"
       "The front starts as the box of the region (or a sphere) and moves until it stands still "
       "where the classes of intensity,\n"
       "calibrated by the gradients of the volume, part. A front that vanishes or fills the region "
       "is a warning; the files are\n"
       "written all the same.");
-  command->callback([arguments, &settings] {
-    settings.run = [arguments, &settings] {
+  command->callback([arguments, command, &settings] {
+    settings.run = [arguments, command, &settings] {
+      if (arguments->local_classes() && command->count("--max-scope") == 0)
+        arguments->options.calibration.max_scope = kLocalScope;
       check_names(*arguments);
       check_numbers(*arguments);
       arguments->options.mixture.classes = class_count(arguments->classes);

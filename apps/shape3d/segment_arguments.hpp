@@ -27,13 +27,18 @@ struct SegmentArguments {
   std::vector<double> roi_mm;  ///< Empty, or the same in LPS millimetres: the box of nodes inside.
   std::vector<double> seed;    ///< Empty, or x y z in samples of the volume.
   double radius = 0.0;         ///< mm, of the start sphere; 0: the front starts as the box.
-  std::string classes = "3";   ///< "auto" or a number.
+  std::string classes;  ///< "auto", a number, or empty: 3, with --nodule the two at the seed.
   std::string inside = "bright";  ///< "bright", "dark" or "i,j,…".
   bool keep_connected = false;
   bool nodule = false;
   std::string psi, mesh, truth, plot;
   std::vector<double> truth_labels;   ///< Empty: all that is not 0.
   std::vector<std::string> contours;  ///< Pairs of plane and file.
+
+  /// The mixture is that of the seed and what is round it, not of the region.
+  [[nodiscard]] bool local_classes() const {
+    return nodule && classes.empty() && (inside == "bright" || inside == "dark");
+  }
   levelset::SegmentOptions options;
 };
 
@@ -42,7 +47,8 @@ struct Region {
   std::array<std::int64_t, 3> lower{}, upper{};
 };
 
-/// What --roi or --roi-mm says; the whole volume without either.
+/// What --roi or --roi-mm says. Without either the whole volume; with --nodule and --radius R the
+/// samples within 2.5 R of the seed point along each axis, and at least five of them.
 /// @throws UsageError  naming the axis and the numbers: the box is empty, inverted or reaches
 ///         outside the volume; in millimetres, no sample lies in it.
 [[nodiscard]] Region region_of(const SegmentArguments& arguments, const zmc::VolumeView& volume);

@@ -66,11 +66,26 @@ Region by_place(const SegmentArguments& arguments, const zmc::VolumeView& volume
   return region;
 }
 
+// A few times a nodule, that there is something round it.
+Region round_nodule(const SegmentArguments& arguments, const zmc::VolumeView& volume) {
+  Region region;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double reach =
+        std::max(2.5 * arguments.radius / volume.spacing[static_cast<Eigen::Index>(axis)], 5.0);
+    const auto last = static_cast<double>(volume.dims[axis] - 1);
+    const double seed = std::clamp(arguments.seed[axis], 0.0, last);
+    region.lower[axis] = static_cast<std::int64_t>(std::ceil(std::max(seed - reach, 0.0)));
+    region.upper[axis] = static_cast<std::int64_t>(std::floor(std::min(seed + reach, last))) + 1;
+  }
+  return region;
+}
+
 }  // namespace
 
 Region region_of(const SegmentArguments& arguments, const zmc::VolumeView& volume) {
   if (!arguments.roi.empty()) return by_index(arguments, volume);
   if (!arguments.roi_mm.empty()) return by_place(arguments, volume);
+  if (arguments.nodule && arguments.radius > 0.0) return round_nodule(arguments, volume);
   return {{0, 0, 0}, volume.dims};
 }
 

@@ -132,7 +132,9 @@ Json to_json(const SegmentResult& result) {
   json["options"] = {{"method", method_name(arguments.options.speed.method)},
                      {"calibrated", arguments.options.calibrated},
                      {"inside", arguments.inside},
-                     {"classes", arguments.classes},
+                     {"classes", arguments.local_classes()   ? "at the seed"
+                                 : arguments.classes.empty() ? "3"
+                                                             : arguments.classes},
                      {"seed", arguments.options.mixture.seed},
                      {"curvature", arguments.options.evolution.curvature},
                      {"keep_connected", arguments.keep_connected},

@@ -9,6 +9,7 @@
 #include <shape3d/zmc/volume_view.hpp>
 
 #include "common/label_map.hpp"
+#include "common/nodule.hpp"
 #include "common/segmentation_measures.hpp"
 #include "report.hpp"
 #include "segment_arguments.hpp"

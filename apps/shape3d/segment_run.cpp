@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include <shape3d/levelset/local_mixture.hpp>
 #include <shape3d/zmc/contour.hpp>
 #include <shape3d/zmc/extract.hpp>
 
@@ -151,6 +152,24 @@ class Segmenting {
            " samples are outside the region and not compared");
   }
 
+  // Two classes for the nodule at the seed.
+  levelset::GaussianMixture classes_at_seed(const levelset::ImageView& image) {
+    levelset::LocalMixtureOptions options;
+    options.radius = 0.5 * arguments_.radius;
+    options.dark = arguments_.inside == "dark";
+    options.histogram = arguments_.options.histogram;
+    options.threads = settings_.threads;
+    levelset::GaussianMixture mixture = levelset::local_mixture(image, seed_, options);
+    if (mixture.size() == 0) {
+      throw FileError(arguments_.volume,
+                      std::string("what is at the seed point is not ") +
+                          (options.dark ? "darker" : "brighter") +
+                          " than what is round it by more than the noise; expected a seed point in "
+                          "a nodule, or --classes");
+    }
+    return mixture;
+  }
+
   void segment() {
     const levelset::ImageView image = image_of(result_.roi);
     levelset::SegmentOptions options = arguments_.options;
@@ -164,6 +183,7 @@ class Segmenting {
       return true;
     };
     try {
+      if (arguments_.local_classes()) options.known_mixture = classes_at_seed(image);
       levelset::Field start;
       if (arguments_.radius > 0.0)
         start = levelset::sphere_front(image.grid(), seed_, arguments_.radius);
@@ -211,7 +231,9 @@ class Segmenting {
                                                "the object");
       }
       if (arguments_.nodule) {
-        result_.nodule = nodule_at(mask, *seed);
+        NoduleOptions options;
+        options.radius = arguments_.radius;
+        result_.nodule = nodule_at(mask, *seed, options);
         mask = result_.nodule->mask;
         if (std::find(mask.samples.begin(), mask.samples.end(), 1) == mask.samples.end())
           tell(arguments_.volume +

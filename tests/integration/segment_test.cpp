@@ -10,6 +10,7 @@
 #include "common/label_map.hpp"
 #include "common/mesh_check.hpp"
 #include "common/mesh_io.hpp"
+#include "common/text.hpp"
 #include "common/volume_io.hpp"
 #include "png_image.hpp"
 #include "program_run.hpp"
@@ -263,6 +264,40 @@ TEST_CASE("segment: a nodule without its vessel, with its pictures", "[segment]"
   CHECK(decode_png(slurp(folder / "plots/histogram.png")).width == 1100);
 }
 
+TEST_CASE("segment: nodules of every kind by seed and radius", "[segment]") {
+  const TemporaryFolder folder;
+  LungPhantomOptions options;
+  options.dims = {120, 136, 48};
+  const LungPhantom lungs = make_lung_phantom(options);
+  REQUIRE(lungs.nodules.size() >= 4);
+  std::string place;
+  for (const double h : lungs.spacing) place += " " + to_text(h);
+  const auto write = [&](const std::string& name, const auto& samples) {
+    make_volume(
+        folder / name, {120, 136, 48},
+        [&](int i, int j, int k) {
+          return static_cast<float>(samples[static_cast<std::size_t>(i + 120 * (j + 136 * k))]);
+        },
+        "ElementSpacing =" + place + "\n");
+  };
+  write("lungs.mhd", lungs.samples);
+  for (const PhantomNodule& nodule : lungs.nodules) {
+    write("t.mhd", lungs.nodule(nodule));
+    const Run run = run_in(
+        folder, {"segment", "lungs.mhd", "-o", "l.nrrd", "--nodule", "--seed-point",
+                 to_text(nodule.centre.x()) + "," + to_text(nodule.centre.y()) + "," +
+                     to_text(nodule.centre.z()),
+                 "--radius", to_text(nodule.radius), "--truth", "t.mhd", "--json", "r.json"});
+    INFO(to_string(nodule.kind) << ", radius " << nodule.radius << ": " << run.err);
+    REQUIRE(run.status == 0);
+    const nlohmann::json r = read_json(folder / "r.json");
+    CHECK(r["options"]["classes"] == "at the seed");
+    CHECK(r["model"]["stop"] == "given");
+    CHECK(r["agreement"]["dice"].get<double>() >
+          (nodule.kind == NoduleKind::at_pleura ? 0.7 : 0.9));
+  }
+}
+
 TEST_CASE("segment: fronts that vanish or fill the region are named, and written", "[segment]") {
   const TemporaryFolder folder;
   make_ball(folder);
@@ -377,10 +412,14 @@ TEST_CASE("segment: wrong command lines", "[segment][error]") {
 
 TEST_CASE("segment: volumes that hold no object to find", "[segment][error]") {
   BadInput bad;
-  bad.expect(1, {}, "constant.mhd: ", "constant.mhd");
-  bad.expect(1, {"--classes", "3"}, "two.mhd: ", "two.mhd");
-  bad.expect(1, {}, "nan.mhd: ", "nan.mhd");
-  bad.expect(1, {"--classes", "2", "--inside", "0,1"}, "ball.mhd: ");
+  bad.expect(1, {}, "constant.mhd: the image is constant: there is nothing to separate",
+             "constant.mhd");
+  bad.expect(1, {"--classes", "3"},
+             "two.mhd: the histogram has fewer occupied bins than classes were asked for",
+             "two.mhd");
+  bad.expect(1, {}, "nan.mhd: image: sample (3, 4, 5) is NaN; expected a finite number", "nan.mhd");
+  bad.expect(1, {"--classes", "2", "--inside", "0,1"},
+             "ball.mhd: all classes are on one side of the front");
   bad.expect(1, {"--classes", "2", "--inside", "5"}, "ball.mhd: ");
   bad.expect(1, {"--classes", "2", "--inside", "1,1"}, "ball.mhd: ");
   bad.expect(1, {"--truth", "two.mhd"},
@@ -392,6 +431,11 @@ TEST_CASE("segment: volumes that hold no object to find", "[segment][error]") {
              "truth.mhd: has no sample of label 4 or 7");
   bad.expect(1, {"--classes", "2", "--seed-point", "1,1,1", "--keep-connected"},
              "ball.mhd: nothing is inside within 3.6 mm of the seed point");
+  bad.expect(1, {"--seed-point", "1,1,1", "--radius", "2", "--nodule"},
+             "ball.mhd: what is at the seed point is not brighter than what is round it by more "
+             "than the noise; expected a seed point in a nodule, or --classes");
+  bad.expect(1, {"--seed-point", "20,18,15", "--nodule", "--inside", "dark"},
+             "ball.mhd: what is at the seed point is not darker than");
   bad.expect(1, {}, "none.mhd: ", "none.mhd");
   bad.expect(1, {"--psi", "no/p.nrrd"}, "no/p.nrrd: ");
   bad.expect(1, {"--plot", "ball.mhd"}, "ball.mhd: cannot be made");

@@ -7,6 +7,7 @@
 
 #include "common/distance_transform.hpp"
 #include "common/label_map.hpp"
+#include "common/nodule.hpp"
 #include "support/random_numbers.hpp"
 
 namespace {
@@ -288,14 +289,45 @@ TEST_CASE("a nodule is cut from a vessel and from a wall", "[labels]") {
   for (std::size_t n = 0; n < cap.samples.size(); ++n) {
     if (place(cap, n).x() >= 34) cap.samples[n] = 0;
   }
-  CHECK(dice_with(nodule_at(scene(false, true), {30, 30, 20}).mask, cap) > 0.85);
-  CHECK(dice_with(nodule_at(scene(true, true), {30, 30, 20}).mask, cap) > 0.85);
+  CHECK(dice_with(nodule_at(scene(false, true), {30, 30, 20}).mask, cap) > 0.93);
+  CHECK(dice_with(nodule_at(scene(true, true), {30, 30, 20}).mask, cap) > 0.9);
+  CHECK(dice_with(nodule_at(scene(false, true), {32, 29, 21}).mask, cap) > 0.93);
+  const Mask in_wall = nodule_at(scene(false, true), {52, 30, 20}).mask;  // deep in the wall
+  CHECK(std::count(in_wall.samples.begin(), in_wall.samples.end(), 1) == 0);
+  // As if the lattice ended close behind the nodule: the wall goes on.
+  Mask crop = mask_of({38, 60, 40}, {1, 1, 1},
+                      [](std::int64_t, std::int64_t, std::int64_t) { return false; });
+  Mask crop_cap = crop;
+  const Mask whole = scene(false, true);
+  for (std::int64_t k = 0; k < 40; ++k) {
+    for (std::int64_t j = 0; j < 60; ++j) {
+      for (std::int64_t i = 0; i < 38; ++i) {
+        const auto to = static_cast<std::size_t>(crop.index({i, j, k}));
+        crop.samples[to] = whole.samples[static_cast<std::size_t>(whole.index({i, j, k}))];
+        crop_cap.samples[to] = cap.samples[static_cast<std::size_t>(cap.index({i, j, k}))];
+      }
+    }
+  }
+  CHECK(dice_with(nodule_at(crop, {30, 30, 20}).mask, crop_cap) > 0.93);
   const Nodule none = nodule_at(ball, {0, 0, 0});
   CHECK(std::count(none.mask.samples.begin(), none.mask.samples.end(), 1) == 0);
   NoduleOptions options;
   options.vessel_share = 1;
   CHECK_THROWS_MATCHES(nodule_at(ball, {30, 30, 20}, options), std::invalid_argument,
                        Message("vessel_share is 1; expected 0 or more, below 1"));
+  options = {};
+  options.radius = -1;
+  CHECK_THROWS_MATCHES(nodule_at(ball, {30, 30, 20}, options), std::invalid_argument,
+                       Message("radius is -1; expected a finite number of mm, 0 or more"));
+  CHECK_THROWS_MATCHES(nodule_at(ball, {30, 60, 20}), std::invalid_argument,
+                       Message("seed[1] is 60; expected 0 to 59"));
+  // A radius that is given: nothing farther than twice it.
+  options.radius = 3;
+  const Mask near = nodule_at(ball, {30, 30, 20}, options).mask;
+  for (std::size_t n = 0; n < near.samples.size(); ++n) {
+    if (near.samples[n] != 0) CHECK((place(near, n) - Eigen::Vector3d(30, 30, 20)).norm() <= 6.0);
+  }
+  CHECK(std::count(near.samples.begin(), near.samples.end(), 1) > 800);
   options = {};
   options.wall_share = 1;
   CHECK_THROWS_MATCHES(nodule_at(ball, {30, 30, 20}, options), std::invalid_argument,

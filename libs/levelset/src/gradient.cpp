@@ -43,6 +43,8 @@ Kernel make_kernel(double sigma, double spacing) {
   return kernel;
 }
 
+constexpr double kLeastSigma = 0.3;  // spacings; a narrower Gaussian is one sample
+
 /// Rows k ± radius with the border repeated.
 std::int64_t clamped(std::int64_t k, std::int64_t count) {
   return std::clamp<std::int64_t>(k, 0, count - 1);
@@ -119,7 +121,7 @@ Field smooth(const ImageView& image, double sigma, int requested_threads) {
   std::array<Kernel, 3> kernels;  // by default the identity
   for (int axis = 0; axis < 3; ++axis) {
     const double in_spacings = sigma / image.spacing[axis];
-    if (in_spacings >= 0.3) kernels[axis] = make_kernel(in_spacings, image.spacing[axis]);
+    if (in_spacings >= kLeastSigma) kernels[axis] = make_kernel(in_spacings, image.spacing[axis]);
   }
   const Kernel &kx = kernels[0], &ky = kernels[1], &kz = kernels[2];
   const std::int64_t nx = image.dims[0], ny = image.dims[1], nz = image.dims[2];
@@ -141,6 +143,15 @@ Field smooth(const ImageView& image, double sigma, int requested_threads) {
     }
   });
   return result;
+}
+
+double noise_gain(double sigma) {
+  detail::require(sigma >= 0.0 && sigma <= 32.0, "sigma", sigma, "from 0 to 32 spacings");
+  if (sigma < kLeastSigma) return 1.0;
+  const Kernel kernel = make_kernel(sigma, 1.0);
+  double sum = 0.0;
+  for (const float g : kernel.smooth) sum += static_cast<double>(g) * static_cast<double>(g);
+  return std::sqrt(sum);
 }
 
 double noise_deviation(const ImageView& image, int requested_threads) {

@@ -265,6 +265,8 @@ std::string_view to_string(MixtureStop stop) {
       return "iteration_limit";
     case MixtureStop::chain_complete:
       return "chain_complete";
+    case MixtureStop::given:
+      return "given";
     case MixtureStop::too_few_bins:
       return "too_few_bins";
   }

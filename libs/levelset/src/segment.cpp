@@ -1,9 +1,12 @@
 #include "shape3d/levelset/segment.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <sstream>
+#include <vector>
 
 #include "message.hpp"
 #include "parallel.hpp"
@@ -26,24 +29,42 @@ class Timer {
   Clock::time_point start_;
 };
 
-/// Distance between the innermost means on the two sides of the boundary.
-double class_distance(const IntensityModel& model) {
-  const Eigen::ArrayXd& means = model.mixture().means;
-  double least = means[means.size() - 1] - means[0];
-  for (Eigen::Index k = 1; k < means.size(); ++k) {
-    if (model.inside()[static_cast<std::size_t>(k)] !=
-        model.inside()[static_cast<std::size_t>(k - 1)])
-      least = std::min(least, means[k] - means[k - 1]);
+/// Mean intensity of each run of neighbouring classes on one side: of the air and of the tissue.
+std::vector<double> side_means(const IntensityModel& model) {
+  const GaussianMixture& mixture = model.mixture();
+  std::vector<double> means;
+  double weight = 0.0, sum = 0.0;
+  for (int k = 0; k < mixture.size(); ++k) {
+    const auto n = static_cast<std::size_t>(k);
+    weight += mixture.weights[k];
+    sum += mixture.weights[k] * mixture.means[k];
+    if (k + 1 < mixture.size() && model.inside()[n] == model.inside()[n + 1]) continue;
+    if (weight > 0.0) means.push_back(sum / weight);
+    weight = sum = 0.0;
   }
-  return least;
+  return means;
 }
 
-constexpr double kWidestSmoothing = 0.8;  // voxels
+constexpr double kDeviations = 3.0;  // of the noise, from either side to the boundary
+constexpr double kLeastSmoothing = 0.3, kWidestSmoothing = 1.5;  // voxels
 
-double automatic_smoothing(double noise, double distance) {
-  if (!(distance > 0.0)) return 0.0;
-  const double share = (noise / distance - 1.0 / 12.0) / (1.0 / 6.0 - 1.0 / 12.0);
-  return kWidestSmoothing * std::clamp(share, 0.0, 1.0);
+/// The least smoothing after which the half way between the sides is three deviations of the noise
+/// away from each: one sample in 740 is then on the wrong side.
+double automatic_smoothing(double noise, const IntensityModel& model,
+                           const std::array<std::int64_t, 3>& dims) {
+  const std::vector<double> means = side_means(model);
+  double distance = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 1; n < means.size(); ++n)
+    distance = std::min(distance, means[n] - means[n - 1]);
+  const double wanted = distance / (2.0 * kDeviations * noise);
+  if (!(wanted < 1.0)) return 0.0;
+  const auto axes = std::count_if(dims.begin(), dims.end(), [](std::int64_t n) { return n > 1; });
+  double low = kLeastSmoothing, high = kWidestSmoothing;
+  for (int step = 0; step < 12; ++step) {
+    const double sigma = 0.5 * (low + high);
+    (std::pow(noise_gain(sigma), axes) > wanted ? low : high) = sigma;
+  }
+  return high;
 }
 
 /// The stages, one after the other, on one result.
@@ -96,7 +117,13 @@ class Pipeline {
     if (!(result_.histogram.minimum < result_.histogram.maximum))
       return end(Status::constant_image);
     const Timer timer(result_.timings.mixture);
-    result_.fit = fit_mixture(result_.histogram, options_.mixture);
+    if (options_.known_mixture.size() > 0) {
+      result_.fit.mixture = options_.known_mixture;
+      result_.fit.stop = MixtureStop::given;
+      result_.fit.misfit = misfit(result_.histogram, result_.fit.mixture);
+    } else {
+      result_.fit = fit_mixture(result_.histogram, options_.mixture);
+    }
     if (result_.fit.stop == MixtureStop::too_few_bins) return end(Status::too_few_bins);
     result_.model = make_intensity_model(result_.fit.mixture, options_.inside);
     if (!result_.model.two_sided()) return end(Status::one_sided);
@@ -110,8 +137,8 @@ class Pipeline {
       result_.noise = noise_deviation(image_, options_.threads);
       result_.smoothing = options_.smoothing >= 0.0
                               ? options_.smoothing
-                              : automatic_smoothing(result_.noise, class_distance(result_.model));
-      if (result_.smoothing < 0.3) {
+                              : automatic_smoothing(result_.noise, result_.model, image_.dims);
+      if (result_.smoothing < kLeastSmoothing) {
         result_.smoothing = 0.0;
         return true;
       }

@@ -106,11 +106,28 @@ TEST_CASE("smoothing keeps constants and ramps and lowers noise as it should",
             static_cast<double>(s[grid.index(i, j, k)]) * s[grid.index(i, j, k)] / (34.0 * 54 * 54);
   CHECK(std::sqrt(variance) ==
         Approx(100.0 * std::pow(2.0 * std::sqrt(3.14159265), -1.5)).epsilon(0.05));
+  CHECK(std::sqrt(variance) == Approx(100.0 * std::pow(noise_gain(1.0), 3)).epsilon(0.02));
   const auto ramp = sample<float>(grid, [](double x, double, double z) { return 2 * x - z; });
   const Field r = smooth(make_view(ramp.data(), grid.dims), 0.8);
   CHECK(r[grid.index(30, 30, 20)] == Approx(40.0).epsilon(1e-5));
   const Field same = smooth(make_view(ramp.data(), grid.dims), 0.2);  // too narrow to do anything
   CHECK((same == Eigen::Map<const Field>(ramp.data(), grid.size())).all());
+}
+
+TEST_CASE("a wider Gaussian leaves less noise", "[levelset][analytic]") {
+  CHECK(noise_gain(0.0) == 1.0);
+  CHECK(noise_gain(0.29) == 1.0);
+  // Three samples: √(1 + 2q²)/(1 + 2q) with q = exp(−½/σ²).
+  const double q = std::exp(-0.5 / 0.09);
+  CHECK(noise_gain(0.3) == Approx(std::sqrt(1 + 2 * q * q) / (1 + 2 * q)).epsilon(1e-6));
+  // ∫ G_σ² = 1/(2√π σ): of a wide kernel, but for 0.2 % that is cut off at 3σ.
+  CHECK(noise_gain(8.0) ==
+        Approx(std::pow(2.0 * std::sqrt(3.14159265) * 8.0, -0.5)).epsilon(0.005));
+  double before = 1.0;
+  for (double sigma = 0.3; sigma < 3.0; sigma += 0.05) {
+    CHECK(noise_gain(sigma) < before);
+    before = noise_gain(sigma);
+  }
 }
 
 TEST_CASE("the noise of an image with edges is found", "[levelset]") {
@@ -136,6 +153,8 @@ TEST_CASE("settings of a filter out of range are refused", "[levelset][contract]
   CHECK_THROWS_WITH(gradient_magnitude(view, 33.0), Contains("at most 32 of the least spacing"));
   CHECK_THROWS_WITH(smooth(view, std::numeric_limits<double>::infinity()),
                     Contains("sigma is inf"));
+  CHECK_THROWS_WITH(noise_gain(-1.0), Contains("sigma is -1; expected from 0 to 32 spacings"));
+  CHECK_THROWS_WITH(noise_gain(std::numeric_limits<double>::quiet_NaN()), Contains("sigma is nan"));
   CHECK_THROWS_WITH(gradient_magnitude(view, 1.0, -2), Contains("threads is -2"));
   samples[13] = std::numeric_limits<float>::quiet_NaN();
   CHECK_THROWS_WITH(gradient_magnitude(view), Contains("sample (1, 1, 1) is NaN"));

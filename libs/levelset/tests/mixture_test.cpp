@@ -196,6 +196,7 @@ TEST_CASE("fewer occupied bins than classes is an outcome, not an error", "[leve
   CHECK(to_string(MixtureStop::converged) == "converged");
   CHECK(to_string(MixtureStop::iteration_limit) == "iteration_limit");
   CHECK(to_string(MixtureStop::chain_complete) == "chain_complete");
+  CHECK(to_string(MixtureStop::given) == "given");
 }
 
 TEST_CASE("options of a mixture out of range are refused", "[levelset][contract]") {

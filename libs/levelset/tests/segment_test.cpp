@@ -74,6 +74,25 @@ TEST_CASE("a noisy scene is segmented, bright or dark", "[levelset]") {
   CHECK(s.timings.estimation() > 0.0);
 }
 
+TEST_CASE("noise is smoothed until it is a sixth of the distance of the sides",
+          "[levelset][analytic]") {
+  SegmentOptions options;
+  options.mixture.classes = 2;
+  options.evolution.max_iterations = 1;
+  for (const double noise : {200.0, 300.0, 400.0}) {
+    const Scene scene = make_scene(noise);
+    const ImageView view = make_view(scene.samples.data(), scene.grid.dims, scene.grid.spacing);
+    options.smoothing = 0.0;
+    // The sides as they are estimated from the image before it is smoothed.
+    const GaussianMixture raw = segment(view, options).fit.mixture;
+    options.smoothing = -1.0;
+    const Segmentation s = segment(view, options);
+    INFO("noise " << noise << ": " << s.smoothing);
+    const double left = s.noise * std::pow(noise_gain(s.smoothing), 3);
+    CHECK(left == Approx((raw.means[1] - raw.means[0]) / 6.0).epsilon(0.01));
+  }
+}
+
 TEST_CASE("calibration makes the volume stable against the estimate", "[levelset][stability]") {
   // Twelve seeds of SEM, stopped after two iterations.
   const Scene scene = make_scene(25.0);

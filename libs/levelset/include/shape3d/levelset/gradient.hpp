@@ -27,6 +27,12 @@ namespace shape3d::levelset {
 [[nodiscard]] SHAPE3D_LEVELSET_EXPORT Field smooth(const ImageView& image, double sigma,
                                                    int threads = 0);
 
+/// What smooth() along one axis leaves of the standard deviation of white noise: √Σ g² of the
+/// sampled kernel, about (2√π σ)^(−½); 1 below 0.3. By three axes: its cube.
+/// @param sigma  In spacings.
+/// @throws std::invalid_argument  sigma is negative, not finite or above 32.
+[[nodiscard]] SHAPE3D_LEVELSET_EXPORT double noise_gain(double sigma);
+
 /// Standard deviation of white noise: the median absolute value of I(i−1) − 2·I(i) + I(i+1) along
 /// x, divided by 0.6745·√6, the ratio for Gaussian noise. Edges hardly change a median.
 /// @throws std::invalid_argument  validate(image) fails; a sample is not finite.

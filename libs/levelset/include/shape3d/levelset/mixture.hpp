@@ -51,6 +51,7 @@ enum class MixtureStop {
   converged,        ///< EM: the likelihood rose by less than the tolerance.
   iteration_limit,  ///< EM: all iterations done.
   chain_complete,   ///< SEM.
+  given,            ///< Nothing was estimated: SegmentOptions::known_mixture.
   too_few_bins      ///< H has fewer occupied bins than classes; the mixture is empty.
 };
 

@@ -24,11 +24,15 @@ struct SegmentOptions {
 
   HistogramOptions histogram;
   MixtureOptions mixture;
+  /// When it has classes: taken in place of an estimate, for example local_mixture().
+  GaussianMixture known_mixture;
   InsideOptions inside;
   double sigma = 0.0;  ///< σ of the gradient, mm; 0: one spacing along each axis.
   /// σ of a Gaussian that the intensities are smoothed with first, in voxels (of each axis); 0:
-  /// none. Negative: chosen from noise_deviation() n and the distance D of the classes on both
-  /// sides of the boundary: none while n < D/12, from there up to 0.8 voxels at n ≥ D/6.
+  /// none. Negative: chosen by the noise n, noise_deviation(), and the distance D of the mean
+  /// intensities of the two sides: the least after which the noise is D/6, so that the half way
+  /// between the sides is three deviations from each and one sample in 740 is on the wrong side;
+  /// 0 while n ≤ D/6, at most 1.5. Less would leave specks; more takes away what is thin.
   double smoothing = -1.0;
   bool calibrated = true;  ///< false: w = 0 also with Method::combined, to show what it is for.
   CalibrationOptions calibration;
