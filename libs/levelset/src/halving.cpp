@@ -18,13 +18,20 @@ bool can_halve(const Grid& grid, std::size_t axis) {
 
 /// `after` is `sides` with the nodes changed that are driven to the side of one of their
 /// neighbours.
-void push_row(const std::int8_t* drive, const std::int8_t* sides,
-              const std::int8_t* const beside[4], std::int64_t count, std::int8_t* after) {
+void push_row(const std::int8_t* __restrict drive, const std::int8_t* __restrict sides,
+              const std::array<const std::int8_t*, 4>& beside, std::int64_t count,
+              std::int8_t* __restrict after) {
+  const std::int8_t* __restrict below = beside[0];
+  const std::int8_t* __restrict above = beside[1];
+  const std::int8_t* __restrict behind = beside[2];
+  const std::int8_t* __restrict before = beside[3];
   for (std::int64_t i = 0; i < count; ++i) {
     const std::int8_t d = drive[i];
-    const bool there = (sides[i - 1] == d) | (sides[i + 1] == d) | (beside[0][i] == d) |
-                       (beside[1][i] == d) | (beside[2][i] == d) | (beside[3][i] == d);
-    after[i] = there && d != 0 ? d : sides[i];
+    const int there = static_cast<int>(sides[i - 1] == d) | static_cast<int>(sides[i + 1] == d) |
+                      static_cast<int>(below[i] == d) | static_cast<int>(above[i] == d) |
+                      static_cast<int>(behind[i] == d) | static_cast<int>(before[i] == d);
+    // No node has side 0, so that there is nothing to compare with where d is.
+    after[i] = there != 0 ? d : sides[i];
   }
 }
 
@@ -123,7 +130,7 @@ void Halving::push(const Drive& drive, bool outside, int threads,
       for (std::int64_t j = 0; j < ny; ++j) {
         const std::int64_t at = fine_.index(0, j, k);
         std::copy_n(sides.data() + at, nx, row.data() + 1);
-        const std::int8_t* const beside[4] = {
+        const std::array<const std::int8_t*, 4> beside = {
             j > 0 ? sides.data() + at - nx : none.data(),
             j + 1 < ny ? sides.data() + at + nx : none.data(),
             k > 0 ? sides.data() + at - nx * ny : none.data(),
@@ -138,13 +145,14 @@ void Halving::push(const Drive& drive, bool outside, int threads,
 Field Halving::prolong(const Field& psi, const Field& before, const Field& after,
                        const Field& advance, const Drive& drive, bool outside, int threads) const {
   std::vector<std::int8_t> sides(static_cast<std::size_t>(fine_.size()));
+  const int shift = factor_[0] == 2 ? 1 : 0;
   const auto has_changed = [&](std::int64_t block) {
     return (before[block] <= 0.0F) != (after[block] <= 0.0F);
   };
   for_blocks(threads, [&](std::int64_t at, const std::int64_t* rows, int count) {
     for (int r = 0; r < count; ++r) {
       for (std::int64_t x = 0; x < fine_.dims[0]; ++x) {
-        const std::int64_t block = at + x / factor_[0];
+        const std::int64_t block = at + (x >> shift);
         const float of = has_changed(block) ? after[block] : psi[rows[r] + x];
         sides[static_cast<std::size_t>(rows[r] + x)] = of <= 0.0F ? -1 : 1;
       }
@@ -159,7 +167,7 @@ Field Halving::prolong(const Field& psi, const Field& before, const Field& after
   for_blocks(threads, [&](std::int64_t at, const std::int64_t* rows, int count) {
     for (int r = 0; r < count; ++r) {
       for (std::int64_t x = 0; x < fine_.dims[0]; ++x) {
-        const std::int64_t block = at + x / factor_[0], node = rows[r] + x;
+        const std::int64_t block = at + (x >> shift), node = rows[r] + x;
         const std::int8_t side = sides[static_cast<std::size_t>(node)];
         if (drive[static_cast<std::size_t>(node)] == side) {
           result[node] = -advance[node] * step;
