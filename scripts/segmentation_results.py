@@ -7,7 +7,6 @@ Dice and distances in samples are computed here with SciPy, apart from the progr
 import json
 import os
 import pathlib
-import platform
 import shutil
 import statistics
 import subprocess
@@ -291,13 +290,13 @@ def phantom_text(rows):
         "## Phantom\n\n"
         "290 × 380 × 62 samples: wall, lungs, trees of vessels, nodules; -800 HU in the lungs and\n"
         "0 HU in tissue, whose border is at -400 HU. Front: the box. Distances (95 % Hausdorff) in\n"
-        "samples, computed by SciPy; threshold: the samples of -400 HU and more.\n\n" +
+        "samples, computed by SciPy; threshold: the samples of -400 HU and more. Smoothing: the\n"
+        "Gaussian that the noise asks for, in samples.\n\n" +
         table(["noise", "HU", "threshold: Dice", "HD95", "shape3d: Dice", "HD95",
-               "calibrated level, HU", "smoothing", "estimation, s", "evolution, s"],
+               "calibrated level, HU", "smoothing", "iterations"],
               [[r["noise"], r["hu"], number(r["plain"][0], 4), number(r["plain"][1], 2),
                 number(r["ours"][0], 4), number(r["ours"][1], 2), number(r["level"], 0),
-                number(r["smoothing"], 2), number(r["estimation"], 2),
-                number(r["evolution"], 2)] for r in rows]))
+                number(r["smoothing"], 2), r["iterations"]] for r in rows]))
 
 
 def nodules_text(rows):
@@ -389,12 +388,9 @@ def write_page():
         found = load(part)
         if found:
             texts.append(globals()[f"{part}_text"](found))
-    cpu = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo")
-                if line.startswith("model name")), platform.machine())
     head = ("# Segmentation: results\n\n"
             "Made by `scripts/segmentation-results.sh`; the real volumes are below `SHAPE3D_DATA`.\n"
-            f"Times are single runs on {cpu}, {os.cpu_count()} processors, which other work shared;\n"
-            "those beside ITK are medians.\n\n")
+            "[Times](../benchmarks/levelset.md) are on a page of their own.\n\n")
     (RESULTS / "segmentation.md").write_text(head + "\n".join(texts))
 
 
