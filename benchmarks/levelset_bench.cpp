@@ -1,8 +1,9 @@
 // Time of the segmentation by stage, on the phantom of a chest CT (290 × 380 × 62) and, when
 // SHAPE3D_DATA is set, on the region x 110:400, y 120:500 of the CT that is as large. Volumes are
-// made and read outside the timed loop.
+// made and read outside the timed loop. Beside it what the memory can do: the rate of a copy.
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <string>
@@ -69,7 +70,7 @@ void run(benchmark::State& state, bool is_real, const SegmentOptions& options, b
   const Scene* scene = scene_of(state, is_real);
   if (scene == nullptr) return;
   SegmentTimings sum;
-  double iterations = 0.0;
+  double iterations = 0.0, nodes = 0.0;
   for (auto _ : state) {
     const Segmentation s = segment(scene->roi, options);
     state.SetIterationTime(evolution ? s.timings.evolution : s.timings.estimation());
@@ -79,10 +80,14 @@ void run(benchmark::State& state, bool is_real, const SegmentOptions& options, b
     sum.calibration += s.timings.calibration;
     sum.speed += s.timings.speed;
     iterations = static_cast<double>(s.evolution.iterations.size());
+    nodes = 0.0;
+    for (const FrontStatistics& at : s.evolution.iterations)
+      nodes += static_cast<double>(at.computed_nodes);
   }
   using benchmark::Counter;
   if (evolution) {
     state.counters["iterations"] = Counter(iterations);
+    state.counters["nodes"] = Counter(nodes);
     return;
   }
   state.counters["histogram"] = Counter(sum.histogram, Counter::kAvgIterations);
@@ -105,6 +110,19 @@ void evolution(benchmark::State& state, bool is_real, double curvature) {
   options.evolution.curvature = curvature;
   run(state, is_real, options, true);
 }
+
+/// Bytes read and written a second by std::memcpy between arrays that no cache holds.
+void copy(benchmark::State& state) {
+  const std::vector<char> from(std::size_t{64} << 20, 1);
+  std::vector<char> to(from.size());
+  for (auto _ : state) {
+    std::memcpy(to.data(), from.data(), from.size());
+    benchmark::DoNotOptimize(to.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetBytesProcessed(state.iterations() * 2 * static_cast<std::int64_t>(from.size()));
+}
+BENCHMARK(copy);
 
 void settings(benchmark::internal::Benchmark* b) {
   b->ArgName("threads")->Arg(1)->Arg(2)->UseManualTime()->Unit(benchmark::kMillisecond);

@@ -177,6 +177,12 @@ void add_evolution_options(CLI::App& command, SegmentArguments& arguments) {
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
   command
+      .add_option("--coarse-levels", options.evolution.coarse_levels,
+                  "Grids of half, a quarter … of the resolution that the front moves on first; 0: "
+                  "none (default 2)")
+      ->check(CLI::Range(0, 8))
+      ->type_name("N");
+  command
       .add_option("--tolerance", options.evolution.tolerance,
                   "Stop when the front moves less than this share of its full speed (default 0.01)")
       ->check(CLI::Range(0.0, 1.0))

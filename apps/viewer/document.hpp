@@ -79,6 +79,7 @@ class Document : public QObject {
   void collection_changed();  ///< The library or the map is another one.
   void cursor_changed();
   void window_changed();
+  void window_edited();  ///< The user has dragged the window to where it is now.
   void loading_changed();
   void said(const QString& sentence);
   void failed(const QString& sentence);

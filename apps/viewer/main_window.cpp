@@ -30,6 +30,7 @@
 #include "common/error.hpp"
 #include "help_dialog.hpp"
 #include "output_image.hpp"
+#include "slice_widget.hpp"
 
 namespace shape3d::apps::viewer {
 namespace {
@@ -381,7 +382,10 @@ void MainWindow::step(const std::optional<UndoStack::Step>& step) {
   View* view = view_named(QString::fromStdString(step->owner));
   view->set_state(step->state);
   undo_.start(step->owner, parameters_of(view));
-  show_view(view->name());
+  // The window is seen in the slices of any view.
+  const bool seen =
+      step->owner == "volume" && !current()->content()->findChildren<SliceWidget*>().empty();
+  if (!seen) show_view(view->name());
   undo_action_->setEnabled(undo_.can_undo());
   redo_action_->setEnabled(undo_.can_redo());
 }

@@ -76,7 +76,7 @@ SegmentationView::SegmentationView(Document& document)
               if (finished) emit edited();
             });
   }
-  connect(four_up_, &FourUp::window_edited, this, &View::edited);
+  connect(four_up_, &FourUp::window_edited, &document_, &Document::window_edited);
   connect(&document_, &Document::volume_changed, this, &SegmentationView::take_volume);
   connect_panel();
   connect(new QShortcut(Qt::Key_G, content_), &QShortcut::activated, panel_->charts,

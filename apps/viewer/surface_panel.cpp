@@ -32,6 +32,7 @@ SurfacePanel::SurfacePanel(int slider_steps)
   auto* surfaces_column = new QVBoxLayout(surfaces);
   list->setMaximumHeight(110);
   list->setObjectName("surfaces");
+  color->setObjectName("color");
   surfaces_column->addWidget(list);
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(add);

@@ -64,7 +64,7 @@ SurfaceView::SurfaceView(Document& document)
   });
   connect(&document_, &Document::volume_changed, this, &SurfaceView::take_volume);
   connect(&document_, &Document::meshes_changed, this, &SurfaceView::take_meshes);
-  connect(four_up_, &FourUp::window_edited, this, &View::edited);
+  connect(four_up_, &FourUp::window_edited, &document_, &Document::window_edited);
   connect(settle_, &QTimer::timeout, this, [this] {
     if (Item* item = selected(); item != nullptr && !slider_->isSliderDown()) request(*item, false);
   });

@@ -29,7 +29,9 @@ QString missing_volume(const Document& document) {
 VolumeView::VolumeView(Document& document)
     : View("volume", "Volume"), document_(document), four_up_(new FourUp(document)) {
   make_panel();
-  connect(four_up_, &FourUp::window_edited, this, &View::edited);
+  connect(four_up_, &FourUp::window_edited, &document_, &Document::window_edited);
+  // In the slices of any view: the window is a parameter of this one.
+  connect(&document_, &Document::window_edited, this, &View::edited);
   connect(&document_, &Document::window_changed, this, &VolumeView::show_window);
   connect(&document_, &Document::volume_changed, this, &VolumeView::show_facts);
   const auto add_step = [this](Qt::Key key, int step) {

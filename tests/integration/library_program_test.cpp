@@ -432,7 +432,7 @@ TEST_CASE("library and search refuse contradictions and what is not there", "[li
                            const std::string& sentence) {
     collection.refuses(status, arguments, sentence);
   };
-  refuses(2, {"library"}, "subcommand");
+  refuses(2, {"library"}, "'library' is not all of a command, expected add, list,");
   refuses(2, {"library", "add", "a.db"}, "MESH is required");
   refuses(2, {"library", "add", "a.db", "meshes", "--descriptor", "egi:Q=4"},
           "--descriptor egi:Q=4: descriptor key is 'Q'");

@@ -18,6 +18,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "four_up.hpp"
+#include "slice_widget.hpp"
 #include "surface_view.hpp"
 #include "volume_view.hpp"
 #include "window_fixture.hpp"
@@ -62,6 +64,39 @@ TEST_CASE("S saves a picture of the view in the current folder", "[viewer][keys]
   const QImage image(folder.filePath(files[0]));
   CHECK(image.size() == fixture.view<VolumeView>("volume").content()->size());
   CHECK(edge_count(image, 20) > 500);
+}
+
+TEST_CASE("a picture that cannot be written is said", "[viewer][keys]") {
+  WindowFixture fixture;
+  fixture.document().set_volume(ball_volume(16));
+  REQUIRE(fixture.settle());
+  const QString before = QDir::currentPath();
+  {
+    const QTemporaryDir folder;
+    QDir::setCurrent(folder.path());
+  }  // it is gone
+  QTest::keyClick(&fixture.window(), Qt::Key_S);
+  QDir::setCurrent(before);
+  CHECK(fixture.window().message().contains("shape3d-volume-"));
+  CHECK(fixture.window().failures().size() == 1);
+}
+
+TEST_CASE("a window that is dragged in another view is taken back there", "[viewer][keys]") {
+  WindowFixture fixture;
+  fixture.document().set_volume(ball_volume(32));
+  fixture.show("surface");
+  const Window before = fixture.document().window();
+  SliceWidget* axial = fixture.view<SurfaceView>("surface").four_up()->slice(2);
+  const QImage slice = WindowFixture::grab(axial);
+  drag(axial, {60, 60}, {60, 120}, Qt::RightButton);
+  CHECK(fixture.document().window().level > before.level);
+  CHECK(changed_pixels(slice, WindowFixture::grab(axial)) > 1000);
+  QTest::keyClick(&fixture.window(), Qt::Key_Z, Qt::ControlModifier);
+  REQUIRE(fixture.settle());
+  CHECK(fixture.document().window().level == Approx(before.level));
+  CHECK(fixture.window().current()->name() == "surface");
+  hover(axial, {2, 2});
+  CHECK(changed_pixels(slice, WindowFixture::grab(axial)) < 50);
 }
 
 TEST_CASE("numbers change the view, B the background", "[viewer][keys]") {

@@ -127,6 +127,19 @@ TEST_CASE("a run is cancelled", "[viewer][segmentation]") {
   CHECK(shown.window().failures().empty());
 }
 
+TEST_CASE("Enter segments, Esc cancels when the front is on its way", "[viewer][segmentation]") {
+  Shown shown(noisy_ball(128, 40.0));
+  shown.view_.set_state({{"roi", {0, 128, 0, 128, 0, 128}}});
+  QTest::keyClick(shown.view_.content(), Qt::Key_Return);
+  CHECK(shown.view_.busy());
+  REQUIRE(shown.wait_until([&] { return shown.view_.frames() > 0 || !shown.view_.busy(); }));
+  CHECK(shown.view_.frames() > 0);
+  QTest::keyClick(shown.view_.content(), Qt::Key_Escape);
+  REQUIRE(shown.settle());
+  CHECK(shown.view_.outcome().cancelled);
+  CHECK_FALSE(shown.control<QPushButton>("cancel")->isEnabled());
+}
+
 TEST_CASE("the result is compared with a mask, drawn in red", "[viewer][segmentation]") {
   const auto volume = noisy_ball(64, 15.0);
   Shown shown(volume);

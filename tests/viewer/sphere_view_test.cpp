@@ -136,6 +136,23 @@ TEST_CASE("the image of normals has at each direction the normal there", "[viewe
   CHECK(worst < 0.15);
 }
 
+TEST_CASE("E draws the edges of the triangles", "[viewer][sphere]") {
+  Shown shown(ellipsoid(3));
+  REQUIRE(shown.sphere.result());
+  const auto edges = [&] {
+    REQUIRE(shown.settle());
+    return std::pair{edge_count(WindowFixture::grab(shown.sphere.mesh_scene()), 25),
+                     edge_count(WindowFixture::grab(shown.sphere.sphere_scene()), 25)};
+  };
+  const auto without = edges();
+  QTest::keyClick(shown.sphere.content(), Qt::Key_E);
+  const auto with = edges();
+  CHECK(with.first > without.first + 1000);
+  CHECK(with.second > without.second + 1000);
+  QTest::keyClick(shown.sphere.content(), Qt::Key_E);
+  CHECK(edges() == without);
+}
+
 TEST_CASE("turning one scene turns the other", "[viewer][sphere]") {
   Shown shown(ellipsoid(3));
   const QImage before = WindowFixture::grab(shown.sphere.sphere_scene());

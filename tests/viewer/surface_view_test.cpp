@@ -8,12 +8,15 @@
 #include <vtkMapper.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
+#include <QApplication>
 #include <QCheckBox>
+#include <QColorDialog>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
 #include <QSlider>
+#include <QTimer>
 #include <QtTest/QTest>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -194,6 +197,34 @@ TEST_CASE("surfaces are added, made transparent and removed", "[viewer][surface]
   QTest::keyClick(&shown.window(), Qt::Key_Z, Qt::ControlModifier);
   REQUIRE(shown.settle());
   CHECK(shown.surface.surface_count() == 2);
+}
+
+TEST_CASE("a colour that is chosen is that of the surface and its contours", "[viewer][surface]") {
+  Shown shown(ball_volume(64));
+  shown.control<QDoubleSpinBox>("isovalue")->setValue(600.0);
+  REQUIRE(shown.settle());
+  const QColor green(20, 220, 30);
+  SliceWidget* axial = shown.four->slice(2);
+  CHECK(count_color(WindowFixture::grab(axial), green, 30) == 0);
+  QTimer::singleShot(300, [green] {
+    auto* dialog = qobject_cast<QColorDialog*>(QApplication::activeModalWidget());
+    if (dialog == nullptr) return;
+    dialog->setCurrentColor(green);
+    QTest::keyClick(dialog, Qt::Key_Return);
+  });
+  QTest::mouseClick(shown.control<QPushButton>("color"), Qt::LeftButton);
+  REQUIRE(shown.settle());
+  CHECK(shown.surface.state()["surfaces"][0]["color"] == green.name().toStdString());
+  CHECK(count_color(WindowFixture::grab(axial), green, 30) > 200);
+  const QImage scene = WindowFixture::grab(shown.four->scene());
+  const QColor middle = scene.pixelColor(scene.width() / 2, scene.height() / 2);
+  CHECK(middle.green() > middle.red() + 60);
+  CHECK(middle.green() > middle.blue() + 60);
+  shown.window().activateWindow();  // without a window manager the dialog leaves no window active
+  REQUIRE(QTest::qWaitForWindowActive(&shown.window()));
+  QTest::keyClick(&shown.window(), Qt::Key_Z, Qt::ControlModifier);
+  REQUIRE(shown.settle());
+  CHECK(count_color(WindowFixture::grab(axial), green, 30) == 0);
 }
 
 // The most triangles that one actor of a scene draws now.

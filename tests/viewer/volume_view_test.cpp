@@ -220,6 +220,41 @@ TEST_CASE("the wheel goes through slices, Ctrl and the wheel zoom round the mous
   CHECK(axial->lattice_at(at).isApprox(place, 1e-9));
 }
 
+TEST_CASE("Shift and the mouse move the crosshair, the middle button the slice, keys the rest",
+          "[viewer][volume]") {
+  WindowFixture fixture;
+  fixture.document().set_volume(ramp());
+  REQUIRE(fixture.settle());
+  auto& view = fixture.view<VolumeView>("volume");
+  SliceWidget* axial = view.four_up()->slice(2);
+  const QPoint at = axial->pixel_of({12.0, 40.0, 15.0}).toPoint();
+  hover(axial, at);
+  CHECK(fixture.document().cursor().isApprox(Eigen::Vector3d(20.0, 30.0, 15.0)));
+  hover(axial, at, Qt::ShiftModifier);
+  CHECK(fixture.document().cursor().isApprox(Eigen::Vector3d(12.0, 40.0, 15.0)));
+
+  const QImage before = WindowFixture::grab(axial);
+  drag(axial, {100, 100}, {125, 90}, Qt::MiddleButton);
+  const QPointF moved = axial->pixel_of({12.0, 40.0, 15.0}) - QPointF(at);
+  CHECK(moved.x() == Approx(25.0).margin(1.0));
+  CHECK(moved.y() == Approx(-10.0).margin(1.0));
+  CHECK(changed_pixels(before, WindowFixture::grab(axial)) > 1000);
+
+  QTest::keyClick(view.content(), Qt::Key_PageUp);
+  QTest::keyClick(view.content(), Qt::Key_PageUp);
+  CHECK(axial->slice() == 17);
+  QTest::keyClick(view.content(), Qt::Key_PageDown);
+  CHECK(axial->slice() == 16);
+
+  SceneWidget* scene = view.four_up()->scene();
+  REQUIRE(fixture.settle());
+  const QImage planes = WindowFixture::grab(scene);
+  QTest::keyClick(view.content(), Qt::Key_P);
+  REQUIRE(fixture.settle());
+  CHECK_FALSE(view.four_up()->planes_visible());
+  CHECK(changed_pixels(planes, WindowFixture::grab(scene)) > 2000);
+}
+
 TEST_CASE("turning the scene moves the camera and changes the picture", "[viewer][volume]") {
   WindowFixture fixture;
   fixture.document().set_volume(ramp());

@@ -51,9 +51,10 @@ SHAPE3D_LEVELSET_INLINE void advance_nodes(const float* __restrict c, std::int64
   const float *ym = c - row, *yp = c + row, *zm = c - slice, *zp = c + slice;
   const float ix = h.inverse[0], iy = h.inverse[1], iz = h.inverse[2];
   const float dt = step.dt, limit = step.limit, bound = step.max_curvature;
-  const float epsilon = step.curvature;
+  const float epsilon = step.curvature, gain = step.gain, most = step.most;
   for (int i = 0; i < count; ++i) {
-    const float f = speed[i], s = f < 0.0F ? -1.0F : 1.0F, v = s * c[i];
+    const float f = std::min(std::max(gain * speed[i], -most), most), s = f < 0.0F ? -1.0F : 1.0F,
+                v = s * c[i];
     // Differences towards the side the front comes from; for F < 0 everything is mirrored.
     const float x = ix * std::max(v - std::min(s * c[i - 1], s * c[i + 1]), 0.0F);
     const float y = iy * std::max(v - std::min(s * ym[i], s * yp[i]), 0.0F);
@@ -110,35 +111,48 @@ SHAPE3D_LEVELSET_INLINE Change advance_any(const TileRows& rows, RowMask mask, c
   return advance_tile<CurvatureTerm::none>(rows, mask, psi, speed, factor, h, step, out);
 }
 
-SHAPE3D_LEVELSET_INLINE void measure_nodes(const float* __restrict psi, int count, float w,
-                                           float slope, float* __restrict volume,
-                                           int* __restrict near, int* __restrict inside) {
+/// One row, its lanes added in pairs of halves.
+SHAPE3D_LEVELSET_INLINE void measure_row(const float* __restrict psi, int count, float w,
+                                         float slope, float& row_volume, int& row_near,
+                                         int& row_inside) {
+  float volume[kTileX] = {};
+  int near[kTileX] = {}, inside[kTileX] = {};
   for (int i = 0; i < count; ++i) {
-    volume[i] += std::min(std::max(0.5F - psi[i] * slope, 0.0F), 1.0F);
-    near[i] += std::abs(psi[i]) < w ? 1 : 0;
-    inside[i] += psi[i] <= 0.0F ? 1 : 0;
+    volume[i] = std::min(std::max(0.5F - psi[i] * slope, 0.0F), 1.0F);
+    near[i] = std::abs(psi[i]) < w ? 1 : 0;
+    inside[i] = psi[i] <= 0.0F ? 1 : 0;
   }
+  for (int half = kTileX / 2; half > 0; half /= 2) {
+    for (int i = 0; i < half; ++i) {
+      volume[i] += volume[i + half];
+      near[i] += near[i + half];
+      inside[i] += inside[i + half];
+    }
+  }
+  row_volume = volume[0];
+  row_near = near[0];
+  row_inside = inside[0];
 }
 
 SHAPE3D_LEVELSET_INLINE Measures measure_tile(const TileRows& rows, RowMask mask, const float* psi,
-                                              float w) {
+                                              float w, RowMeasures& by_row) {
   const float slope = 0.5F / w;
-  float volume[kTileX] = {};
-  int near[kTileX] = {}, inside[kTileX] = {};
+  Measures sum;
   for (RowMask rest = mask & rows.all; rest != 0; rest &= rest - 1) {
     const int bit = __builtin_ctzll(rest);
     const float* row = psi + rows.padded + (bit & 7) * rows.row + (bit >> 3) * rows.slice;
+    float volume = 0.0F;
+    int near = 0, inside = 0;
     if (rows.count == kTileX) {
-      measure_nodes(row, kTileX, w, slope, volume, near, inside);
+      measure_row(row, kTileX, w, slope, volume, near, inside);
     } else {
-      measure_nodes(row, rows.count, w, slope, volume, near, inside);
+      measure_row(row, rows.count, w, slope, volume, near, inside);
     }
-  }
-  Measures sum;
-  for (int lane = 0; lane < kTileX; ++lane) {
-    sum.volume += static_cast<double>(volume[lane]);
-    sum.near += near[lane];
-    sum.inside += inside[lane];
+    by_row.volume[bit] = volume;
+    by_row.near[bit] = static_cast<std::uint8_t>(near);
+    sum.volume += static_cast<double>(volume);
+    sum.near += near;
+    sum.inside += inside;
   }
   return sum;
 }
@@ -151,16 +165,17 @@ SHAPE3D_LEVELSET_TARGET_AVX2 Change advance_avx2(const TileRows& rows, RowMask m
   return advance_any(rows, mask, psi, speed, factor, h, step, out);
 }
 SHAPE3D_LEVELSET_TARGET_AVX2 Measures measure_avx2(const TileRows& rows, RowMask mask,
-                                                   const float* psi, float w) {
-  return measure_tile(rows, mask, psi, w);
+                                                   const float* psi, float w, RowMeasures& by_row) {
+  return measure_tile(rows, mask, psi, w, by_row);
 }
 #endif
 Change advance_portable(const TileRows& rows, RowMask mask, const float* psi, const float* speed,
                         const float* factor, const Spacings& h, const Step& step, float* out) {
   return advance_any(rows, mask, psi, speed, factor, h, step, out);
 }
-Measures measure_portable(const TileRows& rows, RowMask mask, const float* psi, float w) {
-  return measure_tile(rows, mask, psi, w);
+Measures measure_portable(const TileRows& rows, RowMask mask, const float* psi, float w,
+                          RowMeasures& by_row) {
+  return measure_tile(rows, mask, psi, w, by_row);
 }
 
 }  // namespace
@@ -170,8 +185,9 @@ Change advance_rows(const TileRows& rows, RowMask mask, const float* psi, const 
   return SHAPE3D_LEVELSET_DISPATCH(advance, rows, mask, psi, advance, factor, spacings, step, out);
 }
 
-Measures measure_rows(const TileRows& rows, RowMask mask, const float* psi, float w) {
-  return SHAPE3D_LEVELSET_DISPATCH(measure, rows, mask, psi, w);
+Measures measure_rows(const TileRows& rows, RowMask mask, const float* psi, float w,
+                      RowMeasures& by_row) {
+  return SHAPE3D_LEVELSET_DISPATCH(measure, rows, mask, psi, w, by_row);
 }
 
 }  // namespace shape3d::levelset::detail

@@ -10,6 +10,10 @@ enum class CurvatureTerm { none, mean, minimal };
 /// What a step of the evolution is made with.
 struct Step {
   float dt = 0.0F;
+  /// Local time steps: where |F_A| is small the step is longer, up to this many times, and such
+  /// that |F_A|·Δt is at most `most`·dt.
+  float gain = 1.0F;
+  float most = 1.0F;           ///< Largest |F_A|.
   float curvature = 0.0F;      ///< ε, mm.
   float max_curvature = 0.0F;  ///< |κ| is cut at this, 1/mm: at extrema of ψ it has no bound.
   float limit = 0.0F;          ///< |ψ| is cut at this, mm.
@@ -36,6 +40,13 @@ struct Measures {
   int near = 0;         ///< Nodes with |ψ| < w.
   double volume = 0.0;  ///< Σ clamp(½ − ψ/2w, 0, 1), in nodes.
 };
-Measures measure_rows(const TileRows& rows, RowMask mask, const float* psi, float w);
+/// The same of each row of a tile.
+struct RowMeasures {
+  float volume[64] = {};
+  std::uint8_t near[64] = {};
+};
+/// @param by_row  Only the rows of the mask are set.
+Measures measure_rows(const TileRows& rows, RowMask mask, const float* psi, float w,
+                      RowMeasures& by_row);
 
 }  // namespace shape3d::levelset::detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "padded_field.hpp"
@@ -7,16 +8,31 @@
 
 namespace shape3d::levelset::detail {
 
-/// Distances to {Λ(I) = λ} for many λ: intensities are read once, and only the tiles near the
+/// Least and greatest intensity.
+struct Range {
+  float least, greatest;
+  [[nodiscard]] bool holds(double level) const {
+    return static_cast<double>(least) <= level && level <= static_cast<double>(greatest);
+  }
+};
+/// Of the halves of a row.
+struct RowRanges {
+  Range low, high;
+};
+
+/// Distances to {Λ(I) = λ} for one or many λ: intensities are read once, and only the rows near the
 /// boundary are computed.
 class BoundaryDistance {
  public:
+  /// How often compute() is called: for many times, what each row can meet is noted first.
+  enum class Use { once, many };
+
   /// @param limit  Distances are cut at this, mm.
   /// @param passes  Nodes away from those beside the boundary that get a distance.
   /// @param max_samples  Only so many samples are wanted, about: bars of 32 × 32 rows, evenly
   ///                     spread; 0: all.
   BoundaryDistance(const ImageView& image, const IntensityModel& model, double limit, int passes,
-                   std::int64_t max_samples, int threads);
+                   std::int64_t max_samples, Use use, int threads);
 
   [[nodiscard]] const Lattice& lattice() const { return lattice_; }
 
@@ -35,33 +51,40 @@ class BoundaryDistance {
 
  private:
   void choose_tiles(std::int64_t max_samples);
-  void find_rows(double lambda, const std::vector<double>& levels);
+  /// Rows of a tile that still have a say in wanted ones before the last n passes.
+  [[nodiscard]] RowMask allowed(std::int64_t tile, int n) const {
+    return within_[static_cast<std::size_t>(std::min(n, kMostWithin))][tile];
+  }
+  void note_ranges();
+  void find_crossed(const std::vector<double>& levels);
+  void find_rows();
+
+  static constexpr int kMostWithin = 8;
 
   Lattice lattice_;
   const IntensityModel& model_;
   float limit_;
   int passes_, threads_;
+  Use use_;
   bool single_;  // one level, at which Λ rises or falls: the field is the intensity itself
   bool rising_;
   Field intensity_;    // padded
   Field level_field_;  // with several levels: distance in intensity to the nearest, padded
   Field from_, to_;
-  struct Range {
-    float least, greatest;
-    [[nodiscard]] bool holds(double level) const {
-      return static_cast<double>(least) <= level && level <= static_cast<double>(greatest);
-    }
-  };
-  struct RowRanges {
-    Range low, high;
-  };
-  std::vector<RowRanges> ranges_;  // by tile and row: of half a row and the nodes beside it
-  std::vector<char> wanted_;       // by tile
-  std::vector<RowMask> allowed_;   // by tile: rows that have a say in the wanted ones
+  // By tile and row: of half a row and the nodes beside it. Empty for Use::once.
+  std::vector<RowRanges> ranges_;
+  std::vector<char> wanted_;  // by tile
+  /// By n and tile: rows up to n from wanted ones; a distance spreads by one a pass.
+  std::vector<std::vector<RowMask>> within_;
   std::vector<HalfRows> crossed_;  // by tile: halves of rows with a node beside the boundary
   std::vector<std::vector<RowMask>> rows_;  // by passes and tile: the rows that many nodes away
   std::vector<std::int64_t> tiles_;
   double lambda_ = 0.0;
 };
+
+/// Y of (3.7) at all samples, 0 beyond 2 ℓ, where it is under 0.02, for k_P: fuzzy_factor() takes
+/// 0.98 for 1.
+Field boundary_bells(const ImageView& image, const IntensityModel& model, double lambda,
+                     double width, int threads);
 
 }  // namespace shape3d::levelset::detail

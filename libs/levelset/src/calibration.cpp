@@ -38,7 +38,7 @@ class OverlapMeter {
                const CalibrationOptions& options, int threads)
       : width_(width_or_default(options.boundary_width, image.grid())),
         distance_(image, model, kOverlapReach * width_, overlap_passes(width_, image.grid()),
-                  options.max_samples, threads),
+                  options.max_samples, detail::BoundaryDistance::Use::many, threads),
         gradient_(gradient),
         overlap_(options.overlap),
         threads_(threads) {
@@ -252,7 +252,8 @@ Field boundary_distance(const ImageView& image, const IntensityModel& model, dou
   // Distance spreads by one node a pass, along the diagonal of a cell by one in three.
   const int passes = static_cast<int>(
       std::min(std::ceil(std::sqrt(3.0) * limit / image.spacing.minCoeff()), 64.0));
-  detail::BoundaryDistance distance(image, model, limit, passes, 0, threads);
+  detail::BoundaryDistance distance(image, model, limit, passes, 0,
+                                    detail::BoundaryDistance::Use::once, threads);
   distance.compute(lambda, model.levels(lambda));
   const detail::Lattice& lattice = distance.lattice();
   Field result(lattice.grid.size());

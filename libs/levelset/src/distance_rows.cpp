@@ -64,6 +64,7 @@ SHAPE3D_LEVELSET_INLINE Beside beside_rows(const TileRows& rows, RowMask mask, c
               high = marks[4] + marks[5] + marks[6] + marks[7];
     found.rows.low |= static_cast<RowMask>(low != 0) << bit;
     found.rows.high |= static_cast<RowMask>(high != 0) << bit;
+    found.by_row[static_cast<std::size_t>(bit)] = static_cast<std::uint8_t>(low + high);
     found.nodes += low + high;
   }
   return found;
@@ -71,29 +72,31 @@ SHAPE3D_LEVELSET_INLINE Beside beside_rows(const TileRows& rows, RowMask mask, c
 
 /// Least u ≥ the neighbours it uses with Σ max((u − m)/h, 0)² = 1.
 ///
-/// An axis is used when the solution without it, and without those of greater m, is above its m:
-/// Σ max((m − m')/h', 0)² < 1 over the other axes.
-SHAPE3D_LEVELSET_INLINE void relax(const float* c, std::int64_t row, std::int64_t slice, int count,
-                                   const Spacings& h, float limit, float* __restrict out) {
-  const float *ym = c - row, *yp = c + row, *zm = c - slice, *zp = c + slice;
+/// With the axes in the order of their neighbours, a ≤ b ≤ c: an axis is used when the solution
+/// without it and those after it is above its neighbour, that is, Σ ((c − m)/h)² < 1 over those
+/// before.
+SHAPE3D_LEVELSET_INLINE void relax(const float* cell, std::int64_t row, std::int64_t slice,
+                                   int count, const Spacings& h, float limit,
+                                   float* __restrict out) {
+  const float *ym = cell - row, *yp = cell + row, *zm = cell - slice, *zp = cell + slice;
   const float wx = h.weight[0], wy = h.weight[1], wz = h.weight[2];
   for (int i = 0; i < count; ++i) {
-    const float v = c[i], s = v < 0.0F ? -1.0F : 1.0F;
-    const float x = std::min(s * c[i - 1], s * c[i + 1]), y = std::min(s * ym[i], s * yp[i]),
+    const float v = cell[i], s = v < 0.0F ? -1.0F : 1.0F;
+    const float x = std::min(s * cell[i - 1], s * cell[i + 1]), y = std::min(s * ym[i], s * yp[i]),
                 z = std::min(s * zm[i], s * zp[i]);
-    const float least = std::min(x, std::min(y, z));
-    const float dx = x - least, dy = y - least, dz = z - least;
-    const float xy = dx - dy, yz = dy - dz, zx = dz - dx;
-    const float over_xy = std::max(xy, 0.0F), over_yz = std::max(yz, 0.0F),
-                over_zx = std::max(zx, 0.0F);
-    const float under_xy = over_xy - xy, under_yz = over_yz - yz, under_zx = over_zx - zx;
-    const float ux = wy * over_xy * over_xy + wz * under_zx * under_zx < 1.0F ? wx : 0.0F;
-    const float uy = wz * over_yz * over_yz + wx * under_xy * under_xy < 1.0F ? wy : 0.0F;
-    const float uz = wx * over_zx * over_zx + wy * under_yz * under_yz < 1.0F ? wz : 0.0F;
-    const float w = ux + uy + uz, sum = ux * dx + uy * dy + uz * dz;
-    const float square = ux * dx * dx + uy * dy * dy + uz * dz * dz;
-    const float u = least + (sum + std::sqrt(std::max(sum * sum - w * (square - 1.0F), 0.0F))) / w;
-    const float value = least <= 0.0F ? std::abs(v) : std::min(u, limit);  // beside: kept
+    const float low = std::min(x, y), high = std::max(x, y);
+    const float w_low = y < x ? wy : wx, w_high = y < x ? wx : wy;
+    const float middle = std::min(high, z), c = std::max(high, z);
+    const float w_middle = z < high ? wz : w_high, wc = z < high ? w_high : wz;
+    const float a = std::min(low, middle), b = std::max(low, middle);
+    const float wa = middle < low ? w_middle : w_low, wb = middle < low ? w_low : w_middle;
+    const float db = b - a, dc = c - a, cb = c - b;
+    const float ub = wa * db * db < 1.0F ? wb : 0.0F;
+    const float uc = wa * dc * dc + wb * cb * cb < 1.0F ? wc : 0.0F;
+    const float w = wa + ub + uc, pb = ub * db, pc = uc * dc, sum = pb + pc;
+    const float square = pb * db + pc * dc;
+    const float u = a + (sum + std::sqrt(std::max(sum * sum - w * (square - 1.0F), 0.0F))) / w;
+    const float value = a <= 0.0F ? std::abs(v) : std::min(u, limit);  // beside: kept
     out[i] = v == 0.0F ? 0.0F : s * value;
   }
 }

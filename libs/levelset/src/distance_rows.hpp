@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <Eigen/Core>
@@ -38,6 +39,18 @@ enum class Far {
 struct Beside {
   int nodes = 0;
   HalfRows rows;
+  std::array<std::uint8_t, 64> by_row{};  ///< Nodes of each row.
+
+  /// Takes the rows of a mask from `other`.
+  void replace(RowMask mask, const Beside& other) {
+    rows.low = (rows.low & ~mask) | (other.rows.low & mask);
+    rows.high = (rows.high & ~mask) | (other.rows.high & mask);
+    for (RowMask rest = mask; rest != 0; rest &= rest - 1) {
+      const auto row = static_cast<std::size_t>(__builtin_ctzll(rest));
+      nodes += other.by_row[row] - by_row[row];
+      by_row[row] = other.by_row[row];
+    }
+  }
 };
 
 /// Signed distance of the nodes beside the zero set, 0 at zeros, in the rows of a mask.

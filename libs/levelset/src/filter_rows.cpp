@@ -67,12 +67,20 @@ SHAPE3D_LEVELSET_INLINE Products sum_products(const float* __restrict a, const f
       bb[lane] += b[i + lane] * b[i + lane];
     }
   }
-  for (int lane = 0; i < count; ++i, ++lane) {
+  int lane = 0;
+  if (i + 8 <= count) {
+    for (; lane < 8; ++lane) {
+      ab[lane] += a[i + lane] * b[i + lane];
+      bb[lane] += b[i + lane] * b[i + lane];
+    }
+    i += 8;
+  }
+  for (; i < count; ++i, ++lane) {
     ab[lane] += a[i] * b[i];
     bb[lane] += b[i] * b[i];
   }
   Products sum{0.0F, 0.0F};
-  for (int lane = 0; lane < 16; ++lane) {
+  for (lane = 0; lane < 16; ++lane) {
     sum.ab += ab[lane];
     sum.bb += bb[lane];
   }

@@ -91,17 +91,77 @@ Bins choose_bins(const Range& range, int max_bins) {
   }
 }
 
+/// The samples of an image, to be gone through several times. Whole numbers of up to 16 bits are
+/// counted by value first, and then only the values are gone through.
 template <class T>
-Counts fill(const ImageView& image, const Bins& bins, std::optional<double> left_out, int threads) {
-  const double skip = left_out.value_or(std::numeric_limits<double>::quiet_NaN());
-  const double scale = 1.0 / bins.width;
-  return count<T>(image, static_cast<std::size_t>(bins.count), threads, [&](T sample) {
-    const auto value = static_cast<double>(sample);
-    if (value == skip) return std::int64_t{-1};
-    return std::min<std::int64_t>(static_cast<std::int64_t>((value - bins.lower) * scale),
-                                  bins.count - 1);
-  });
-}
+class Samples {
+ public:
+  Samples(const ImageView& image, int threads) : image_(image), threads_(threads) {
+    if constexpr (kByValue) {
+      by_value_ =
+          count<T>(image, kValues, threads, [](T value) { return std::int64_t{value} - kLeast; });
+    }
+  }
+
+  [[nodiscard]] Range range_without(std::optional<double> left_out) const {
+    if constexpr (!kByValue) return range<T>(image_, left_out, threads_);
+    Range found;
+    for_values([&](double value, std::int64_t /*times*/) {
+      if (left_out && value == *left_out) return;
+      found.least = std::min(found.least, value);
+      found.greatest = std::max(found.greatest, value);
+    });
+    return found;
+  }
+
+  [[nodiscard]] std::int64_t count_of(double wanted) const {
+    if constexpr (kByValue) {
+      return by_value_[static_cast<std::size_t>(static_cast<std::int64_t>(wanted) - kLeast)];
+    } else {
+      return count<T>(image_, 1, threads_, [&](T sample) {
+        return static_cast<double>(sample) == wanted ? std::int64_t{0} : std::int64_t{-1};
+      })[0];
+    }
+  }
+
+  [[nodiscard]] Counts fill(const Bins& bins, std::optional<double> left_out) const {
+    const double skip = left_out.value_or(std::numeric_limits<double>::quiet_NaN());
+    const double scale = 1.0 / bins.width;
+    const auto bin_of = [&](double value) {
+      if (value == skip) return std::int64_t{-1};
+      return std::min<std::int64_t>(static_cast<std::int64_t>((value - bins.lower) * scale),
+                                    bins.count - 1);
+    };
+    if constexpr (kByValue) {
+      Counts counts(static_cast<std::size_t>(bins.count), 0);
+      for_values([&](double value, std::int64_t times) {
+        const std::int64_t bin = bin_of(value);
+        if (bin >= 0) counts[static_cast<std::size_t>(bin)] += times;
+      });
+      return counts;
+    } else {
+      return count<T>(image_, static_cast<std::size_t>(bins.count), threads_,
+                      [&](T sample) { return bin_of(static_cast<double>(sample)); });
+    }
+  }
+
+ private:
+  static constexpr bool kByValue = std::is_integral_v<T> && sizeof(T) <= 2;
+  static constexpr std::int64_t kLeast =
+      kByValue ? static_cast<std::int64_t>(std::numeric_limits<T>::min()) : 0;
+  static constexpr std::size_t kValues = kByValue ? std::size_t{1} << (8 * sizeof(T)) : 0;
+
+  template <class Visit>
+  void for_values(const Visit& visit) const {
+    for (std::size_t n = 0; n < by_value_.size(); ++n)
+      if (by_value_[n] > 0)
+        visit(static_cast<double>(static_cast<std::int64_t>(n) + kLeast), by_value_[n]);
+  }
+
+  const ImageView& image_;
+  int threads_;
+  Counts by_value_;
+};
 
 /// The least value is padding when it stands out as a peak: 1 in 1000 to 1 in 4 of the samples, and
 /// more than 20 times as many as the bins in the 2 % of the range above it hold on average.
@@ -118,28 +178,26 @@ template <class T>
 Histogram compute(const ImageView& image, const HistogramOptions& options, int threads) {
   Histogram result;
   result.padding = options.padding;
-  Range found = range<T>(image, result.padding, threads);
+  const Samples<T> samples(image, threads);
+  Range found = samples.range_without(result.padding);
   Bins bins;
   Counts counts;
   if (!found.empty()) {
     bins = choose_bins<T>(found, options.max_bins);
-    counts = fill<T>(image, bins, result.padding, threads);
+    counts = samples.fill(bins, result.padding);
   }
   if (!options.padding && options.detect_padding && counts.size() > 1) {
     std::int64_t at_least = counts[0];
     if (!std::is_integral_v<T> || bins.width > 1.0) {
-      const Counts exact = count<T>(image, 1, threads, [&](T sample) {
-        return static_cast<double>(sample) == found.least ? std::int64_t{0} : std::int64_t{-1};
-      });
-      at_least = exact[0];
+      at_least = samples.count_of(found.least);
     }
     if (is_padding(at_least, image.grid().size(), counts)) {
-      const Range rest = range<T>(image, found.least, threads);
+      const Range rest = samples.range_without(found.least);
       if (rest.least < rest.greatest) {
         result.padding = found.least;
         found = rest;
         bins = choose_bins<T>(found, options.max_bins);
-        counts = fill<T>(image, bins, result.padding, threads);
+        counts = samples.fill(bins, result.padding);
       }
     }
   }

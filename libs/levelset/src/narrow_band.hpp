@@ -17,12 +17,13 @@ namespace shape3d::levelset::detail {
 /// all others hold the same values in both buffers.
 class NarrowBand {
  public:
-  /// @param psi     Any function of the right signs. The first redistancing is done here.
+  /// @param psi     Any function of the right signs. The first redistancing is done here, after it
+  ///                was given up.
   /// @param factor  May be empty: 1.
   /// @param limit   |ψ| is cut at this, mm; at least the largest spacing.
   /// @param reach   The front moves by no more than this between two redistancings, mm; up to six
   ///                of the smallest spacings.
-  NarrowBand(const Lattice& lattice, const Field& psi, const Field& advance, const Field& factor,
+  NarrowBand(const Lattice& lattice, Field psi, const Field& advance, const Field& factor,
              float limit, double reach, int threads);
 
   /// Largest |advance| in the active tiles.
@@ -43,6 +44,8 @@ class NarrowBand {
   [[nodiscard]] std::int64_t active_tiles() const {
     return static_cast<std::int64_t>(active_.size());
   }
+  /// Nodes in the rows that a step computes.
+  [[nodiscard]] std::int64_t computed_nodes() const { return computed_nodes_; }
   [[nodiscard]] std::int64_t inside() const { return inside_; }
   /// ψ without ghosts; away from the front only its sign is of use.
   [[nodiscard]] Field copy() const;
@@ -51,8 +54,8 @@ class NarrowBand {
 
  private:
   static constexpr int kMostPasses = 8;
-  /// Rows of a tile within 1, 2, … steps of those with a node beside the front; the last are those
-  /// that are computed.
+  /// Rows of a tile within 1, 2, … steps of those where the front moves; the last are those that
+  /// are computed.
   using Reaches = std::array<RowMask, kMostPasses>;
   struct Tally {
     Beside beside;
@@ -61,14 +64,19 @@ class NarrowBand {
     double sum = 0.0;            // of the volumes of this window
     double mean = 0.0;           // volume of the last window
     int calmed = 0;              // how many times
+    double path = 0.0;           // sum of the changes of volume in this window
+    double window_start = 0.0;   // volume when it began
     bool calm = false;
+    RowMask moving = kAllRows;  // rows where the front moves
+    std::array<float, 64> row_volume{};
   };
 
   template <class Body>
   void for_active(const Body& body);
-  void find_rows(std::int64_t t);
-  void spread(Far far);
-  void activate(std::vector<char> now);
+  [[nodiscard]] Reaches reaches(std::int64_t t, bool moving) const;
+  void spread(Far far, double rest);
+  void measure(std::int64_t t, const TileRows& rows, double rest);
+  void activate();
   [[nodiscard]] bool is_moving(Tally& tally, double rest, bool window_end, Motion& motion) const;
 
   const Lattice& lattice_;
@@ -79,11 +87,12 @@ class NarrowBand {
   int threads_, redistancings_ = 0;
   double window_rest_ = 0.0;  // mm that a tile may move in a window and be at rest
   float max_speed_ = 0.0F;
-  std::int64_t inside_ = 0;
+  std::int64_t inside_ = 0, computed_nodes_ = 0;
   std::vector<std::int64_t> active_;
-  std::vector<char> is_active_;
   // By tile:
+  std::vector<char> is_active_, is_moving_;
   std::vector<Reaches> rows_;
+  std::vector<RowMask> near_;  // rows that the front may reach, moving or not
   std::vector<float> tile_speed_;
   std::vector<Tally> tallies_;
   std::vector<Change> changes_;

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "boundary.hpp"
 #include "message.hpp"
 #include "parallel.hpp"
 #include "samples.hpp"
-#include "shape3d/levelset/calibration.hpp"
+#include "speed_rows.hpp"
 
 namespace shape3d::levelset {
 namespace {
@@ -79,16 +80,6 @@ void check(const ImageView& image, const Field& gradient, const IntensityModel& 
 
 }  // namespace
 
-float fuzzy_factor(float gradient_factor, float boundary_factor) {
-  const auto high = [](float k) { return k * k * (3.0F - 2.0F * k); };
-  const float gradient_high = high(gradient_factor), boundary_high = high(boundary_factor);
-  const float gradient_low = 1.0F - gradient_high, boundary_low = 1.0F - boundary_high;
-  const float none = std::min(gradient_low, boundary_low);
-  const float one = std::min(gradient_low, boundary_high) + std::min(gradient_high, boundary_low);
-  const float both = std::min(gradient_high, boundary_high);
-  return (0.5F * one + both) / (none + one + both);
-}
-
 float gradient_factor(float magnitude, float scale, float exponent) {
   if (!(scale > 0.0F)) return 1.0F;
   return 1.0F / (1.0F + std::pow(magnitude / scale, exponent));
@@ -115,7 +106,7 @@ double quantile(const Field& field, double q) {
 Speed make_speed(const ImageView& image, const Field& gradient, const IntensityModel& model,
                  double lambda, bool factor, const SpeedOptions& options) {
   check(image, gradient, model, options);
-  const int threads = detail::resolve_threads(0);
+  const int threads = detail::resolve_threads(options.threads);
   detail::require_finite(image, threads);
   const Grid grid = image.grid();
   Speed speed;
@@ -127,12 +118,13 @@ Speed make_speed(const ImageView& image, const Field& gradient, const IntensityM
   if (by_gradient) speed.gradient_scale = quantile(gradient, options.gradient_quantile);
   const auto scale = static_cast<float>(speed.gradient_scale);
   const auto exponent = static_cast<float>(options.exponent);
+  const bool squared = options.exponent == 2.0 && scale > 0.0F;
   // k_I against |∇| up to 16 scales; beyond it is under 16^-m.
   constexpr float kReach = 16.0F;
   const std::vector<float> gradient_table =
       tabulate([&](float x) { return gradient_factor(kReach * x * scale, scale, exponent); });
   const double width = options.boundary_width > 0.0 ? options.boundary_width : grid.mean_spacing();
-  if (by_boundary) speed.advance = boundary_detector(image, model, lambda, width, options.threads);
+  if (by_boundary) speed.advance = detail::boundary_bells(image, model, lambda, width, threads);
   const AdvectionTable advection =
       options.method == Method::gradient
           ? AdvectionTable(IntensityModel({Eigen::ArrayXd::Ones(1), Eigen::ArrayXd::Zero(1),
@@ -143,28 +135,36 @@ Speed make_speed(const ImageView& image, const Field& gradient, const IntensityM
   const auto least = static_cast<float>(options.min_factor);
   const auto constant = static_cast<float>(options.direction);
 
-  detail::parallel_for(grid.dims[2], detail::resolve_threads(options.threads), [&](std::int64_t k) {
-    std::vector<float> row(static_cast<std::size_t>(grid.dims[0]));
+  detail::parallel_for(grid.dims[2], threads, [&](std::int64_t k) {
+    const std::int64_t count = grid.dims[0];
+    std::vector<float> row(static_cast<std::size_t>(count)), factors(row.size(), 1.0F);
     for (std::int64_t j = 0; j < grid.dims[1]; ++j) {
       detail::load_row(image, j, k, row.data());
       const std::int64_t at = grid.index(0, j, k);
-      for (std::int64_t i = 0; i < grid.dims[0]; ++i) {
-        float both = 1.0F;
-        if (by_gradient) {
+      if (by_gradient && squared) {
+        detail::square_factors(gradient.data() + at, count, 1.0F / scale, factors.data());
+      } else if (by_gradient) {
+        for (std::int64_t i = 0; i < count; ++i) {
           const float x =
               scale > 0.0F ? std::min(gradient[at + i] / (kReach * scale), 1.0F) * 1024.0F : 0.0F;
           const auto n = static_cast<std::size_t>(x);
-          both = gradient_table[n] +
-                 (x - static_cast<float>(n)) * (gradient_table[n + 1] - gradient_table[n]);
-          if (by_boundary) both = fuzzy_factor(both, 1.0F - speed.advance[at + i]);
-          both = std::max(both, least);
+          factors[static_cast<std::size_t>(i)] =
+              gradient_table[n] +
+              (x - static_cast<float>(n)) * (gradient_table[n + 1] - gradient_table[n]);
         }
+      }
+      if (by_gradient) {
+        detail::fuzzy_factors(by_boundary ? speed.advance.data() + at : nullptr, count, least,
+                              factors.data());
+      }
+      float* advance = speed.advance.data() + at;
+      for (std::int64_t i = 0; i < count; ++i) {
         const float a = options.method == Method::gradient
                             ? constant
                             : advection(row[static_cast<std::size_t>(i)]);
-        speed.advance[at + i] = both * a;
-        if (factor) speed.factor[at + i] = both;
+        advance[i] = factors[static_cast<std::size_t>(i)] * a;
       }
+      if (factor) std::copy_n(factors.data(), count, speed.factor.data() + at);
     }
   });
   return speed;

@@ -182,6 +182,7 @@ TEST_CASE("any number of threads and any instruction set give the same bytes", "
   const Field speed = object_speed(grid, true);
   EvolveOptions options;
   options.curvature = GENERATE(0.0, 0.05);
+  options.coarse_levels = GENERATE(0, 2);
   options.threads = 1;
   const Field start = box_front(grid, {{0, 0, 0}, grid.dims});
   const Evolution one = evolve(grid, start, speed, speed.abs(), options);
@@ -245,9 +246,112 @@ TEST_CASE("a step keeps to the CFL bound and the statistics add up", "[levelset]
     time += s.step;
     CHECK(s.time == Approx(time));
     CHECK(s.active_tiles > 0);
+    CHECK(s.computed_nodes > s.active_tiles);
+    CHECK(s.computed_nodes <= 512 * s.active_tiles);
   }
   CHECK(e.iterations.back().speed == Approx(0.5).epsilon(0.25));
   CHECK(e.iterations.back().inside == (e.psi <= 0.0F).count());
+}
+
+TEST_CASE("from coarser grids the front comes to the same rest", "[levelset]") {
+  const Grid grid{{61, 60, 43}, {0.8, 0.8, 1.1}};
+  const bool noisy = GENERATE(false, true);
+  const double epsilon = GENERATE(0.0, 0.03);
+  const Field speed = object_speed(grid, noisy);
+  EvolveOptions options;
+  options.curvature = epsilon;
+  const Field box = box_front(grid, {{0, 0, 0}, grid.dims});
+  const Evolution fine = evolve(grid, box, speed, {}, options);
+  REQUIRE(fine.status == Status::converged);
+  // Of nodes that the front rests on, |F| under 0.05, either side is right.
+  const auto different = [&](const Field& a, const Field& b) {
+    return (((a <= 0.0F) != (b <= 0.0F)) && speed.abs() > 0.05F).count();
+  };
+  const Field ball = sphere_front(grid, {20, 19, 14}, 3.0);
+  const Evolution fine_grown = evolve(grid, ball, speed, {}, options);
+  for (const int levels : {1, 2, 3, 8}) {
+    options.coarse_levels = levels;
+    const Evolution coarse = evolve(grid, box, speed, {}, options);
+    INFO(levels << " levels, noisy " << noisy << ", curvature " << epsilon);
+    CHECK(coarse.status == Status::converged);
+    CHECK(different(coarse.psi, fine.psi) <= 4);
+    CHECK(coarse.band == fine.band);
+    // Levels come down to 0, iterations and time go on.
+    const FrontStatistics* before = nullptr;
+    for (const FrontStatistics& at : coarse.iterations) {
+      CHECK(at.level <= (before ? before->level : levels));
+      CHECK(at.iteration == (before ? before->iteration : 0) + 1);
+      before = &at;
+    }
+    CHECK(coarse.iterations.front().level > 0);
+    CHECK(coarse.iterations.back().level == 0);
+    CHECK(coarse.iterations.back().inside == (coarse.psi <= 0.0F).count());
+    // From within, too.
+    const Evolution grown = evolve(grid, ball, speed, {}, options);
+    CHECK(different(grown.psi, fine_grown.psi) <= 4);
+  }
+}
+
+TEST_CASE("a coarse front does not pass walls of one node", "[levelset]") {
+  // A hollow cube with a wall of one node: from the box the cavity is not found, whatever the
+  // level.
+  const Grid grid{{40, 40, 40}, {1, 1, 1}};
+  Field speed = constant(grid, -1.0F);
+  const auto at = [](std::int64_t i, std::int64_t j, std::int64_t k) {
+    return std::max({std::abs(i - 19), std::abs(j - 20), std::abs(k - 21)});
+  };
+  std::int64_t inside = 0;
+  for (std::int64_t k = 0; k < 40; ++k)
+    for (std::int64_t j = 0; j < 40; ++j)
+      for (std::int64_t i = 0; i < 40; ++i) {
+        if (at(i, j, k) == 12) speed[grid.index(i, j, k)] = 1.0F;
+        inside += at(i, j, k) <= 12 ? 1 : 0;
+      }
+  for (const int levels : {0, 1, 2}) {
+    EvolveOptions options;
+    options.coarse_levels = levels;
+    const Evolution e = evolve(grid, box_front(grid, {{0, 0, 0}, grid.dims}), speed, {}, options);
+    INFO(levels << " levels");
+    CHECK(e.status == Status::converged);
+    CHECK(e.iterations.back().inside == inside);
+    CHECK(e.psi[grid.index(19, 20, 21)] < 0.0F);
+    CHECK(e.psi[grid.index(2, 2, 2)] > 0.0F);
+  }
+}
+
+TEST_CASE("a front that vanishes or fills the volume on a coarse grid says so", "[levelset]") {
+  const Grid grid{{40, 40, 40}, {1, 1, 1}};
+  EvolveOptions options;
+  options.coarse_levels = 2;
+  const Field ball = sphere_front(grid, {20, 20, 20}, 9.0);
+  const Evolution gone = evolve(grid, ball, constant(grid, -1.0F), {}, options);
+  CHECK(gone.status == Status::front_vanished);
+  CHECK((gone.psi > 0.0F).all());
+  const Evolution full = evolve(grid, ball, constant(grid, 1.0F), {}, options);
+  CHECK(full.status == Status::front_filled);
+  CHECK((full.psi <= 0.0F).all());
+  // Stopped there, by the limit or by the caller, it is a front of the grid asked for.
+  options.max_iterations = 3;
+  const Evolution few = evolve(grid, ball, constant(grid, 1.0F), {}, options);
+  CHECK(few.status == Status::iteration_limit);
+  CHECK(few.iterations.size() == 3);
+  CHECK(few.psi.size() == grid.size());
+  CHECK((few.psi <= 0.0F).count() > (ball <= 0.0F).count());
+  CHECK((few.psi > 0.0F).any());
+  options.max_iterations = 1000;
+  options.watch_interval = 1;
+  int seen = 0;
+  options.watch = [&](const FrontStatistics&, const Field& psi) {
+    CHECK(psi.size() == grid.size());
+    CHECK((psi <= 0.0F).count() >= (ball <= 0.0F).count());
+    ++seen;
+  };
+  options.progress = [](const Progress& p) { return p.share < 0.05; };
+  const Evolution stopped = evolve(grid, ball, constant(grid, 1.0F), {}, options);
+  CHECK(stopped.status == Status::cancelled);
+  CHECK(stopped.iterations.back().level > 0);
+  CHECK(stopped.psi.size() == grid.size());
+  CHECK(seen > 0);
 }
 
 TEST_CASE("a front on its way is that of an evolution which ends there", "[levelset]") {
@@ -309,6 +413,7 @@ TEST_CASE("settings and fields of an evolution that are wrong are refused",
   refused([](EvolveOptions& o) { o.cfl = 1; }, "cfl is 1; expected a number between 0 and 1");
   refused([](EvolveOptions& o) { o.curvature = -0.1; }, "curvature is -0.1");
   refused([](EvolveOptions& o) { o.redistance_interval = 9; }, "redistance_interval is 9");
+  refused([](EvolveOptions& o) { o.coarse_levels = 9; }, "coarse_levels is 9; expected 0 to 8");
   refused([](EvolveOptions& o) { o.watch_interval = 0; }, "watch_interval is 0");
   refused([](EvolveOptions& o) { o.threads = -1; }, "threads is -1");
   CHECK_THROWS_WITH(evolve(grid, Field::Zero(3), speed, {}),

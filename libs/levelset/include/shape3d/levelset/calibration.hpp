@@ -31,7 +31,7 @@ struct CalibrationOptions {
   int refinements = 3;     ///< Passes that halve the step around the best; at least 0.
   /// S is summed over about this many samples at most, in bars of 32 × 32 rows along x spread
   /// evenly over the volume; 0: over all.
-  std::int64_t max_samples = 2'000'000;
+  std::int64_t max_samples = 1'000'000;
   int threads = 0;  ///< 0: all processors. The result does not depend on it.
   ProgressFunction progress;
 };

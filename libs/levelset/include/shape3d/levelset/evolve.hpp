@@ -42,6 +42,14 @@ struct EvolveOptions {
   /// ψ is made a distance again when the front may have gone as far as in this many steps without
   /// curvature; 1 … 8.
   int redistance_interval = 4;
+  /// Coarser grids, each of half the resolution along the finest axes, that the front moves on
+  /// first, the coarsest before the others; 0 … 8, 0: none.
+  ///
+  /// For evolutions to rest: the front goes fast over the coarse grids wherever all nodes of a
+  /// block have F of the same sign, whatever the curvature, and stays elsewhere. It comes nowhere
+  /// where it would not come on the grid itself, which does the rest; but time and the ways of the
+  /// front in time are those of the coarse grids.
+  int coarse_levels = 0;
   int threads = 0;  ///< 0: all processors. The result does not depend on it.
   ProgressFunction progress;
   /// Called from the calling thread after each `watch_interval` iterations that do not end it, with
@@ -53,16 +61,20 @@ struct EvolveOptions {
 
 /// The front after an iteration.
 struct FrontStatistics {
-  int iteration = 0;  ///< From 1.
+  int iteration = 0;  ///< From 1, over all levels.
+  int level = 0;      ///< Of the grid: 0 the one given, 1 of half its resolution, …
   double time = 0.0;  ///< Sum of the steps.
   double step = 0.0;  ///< Δt.
   /// Mean displacement per unit of time since the last reinitialisation, over the nodes beside the
   /// front; set with each reinitialisation and kept until the next.
   double speed = 0.0;
-  std::int64_t crossed = 0;       ///< Nodes that changed sides in this iteration.
-  std::int64_t inside = 0;        ///< Nodes with ψ ≤ 0.
-  std::int64_t front_nodes = 0;   ///< Nodes beside the front at the last reinitialisation.
-  std::int64_t active_tiles = 0;  ///< Tiles of 8 × 8 × 8 nodes that were computed.
+  /// Nodes that changed sides in this iteration; a node of a coarser grid counts as a whole block.
+  std::int64_t crossed = 0;
+  std::int64_t inside = 0;          ///< Nodes with ψ ≤ 0, counted as `crossed`.
+  std::int64_t front_nodes = 0;     ///< Nodes of the level beside the front at the last
+                                    ///< reinitialisation.
+  std::int64_t active_tiles = 0;    ///< Tiles of 8 × 8 × 8 nodes that were computed, in part.
+  std::int64_t computed_nodes = 0;  ///< Nodes that were computed.
 };
 
 /// Outcome of evolve().

@@ -20,6 +20,8 @@ namespace shape3d::levelset {
 
 /// Settings of segment(). `threads` and `progress` here take the place of those of the stages.
 struct SegmentOptions {
+  SegmentOptions() { evolution.coarse_levels = 2; }
+
   HistogramOptions histogram;
   MixtureOptions mixture;
   /// When it has classes: taken in place of an estimate, for example local_mixture().
