@@ -51,7 +51,7 @@ say "the contour in the middle slice"
 
 say "the bone found by its intensities and gradients, without an isovalue"
 # In the box of the head: in the whole volume air and table leave bone no class of its own.
-"$shape3d" segment skull.mhd --roi 40,216,24,236,0,108 --classes 4 --inside 3 -o bone.nii.gz \
+"$shape3d" segment skull.mhd --roi 40,216,24,246,0,108 --classes 4 --inside 3 -o bone.nii.gz \
   --mesh segmented.ply --contours z=54 segmented.svg --plot segmentation --json segment.json
 
 say "pictures"
