@@ -177,8 +177,9 @@ same run moves {copy / 1e9:.1f} GB/s.
         text += (f"| {title} | {nodes / 1e6:.0f} | {seconds:.2f} | {1e9 * seconds / nodes:.1f} | "
                  f"{rate / 1e9:.2f} | {100 * rate / copy:.0f} % |\n")
     return text + """
-So arithmetic is the limit, not memory: above all the square roots, divisions and minima of the distances,
-eight nodes at a time. What is left to gain is in computing fewer nodes.
+The rate of memory is not the limit (nor is its latency: fetching rows ahead gains nothing). The time, that of
+starting and of going from grid to grid included, goes into arithmetic (square roots, divisions and minima, eight
+nodes at a time) and into finding the rows and tiles to compute; docs/notes/levelset.md has the shares.
 """
 
 

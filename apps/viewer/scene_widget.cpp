@@ -89,7 +89,8 @@ vtkActor* SceneSurface::actor() const { return actor_; }
 vtkProperty* SceneSurface::property() const { return actor_->GetProperty(); }
 
 void SceneSurface::set_geometry(vtkPolyData* full, vtkPolyData* coarse) {
-  full_->SetInputData(full);
+  // The same data again would go to the graphics card again.
+  if (full_->GetInput() != full) full_->SetInputData(full);
   has_coarse_ = coarse != nullptr;
   if (has_coarse_) coarse_->SetInputData(coarse);
   set_coarse(is_coarse_);

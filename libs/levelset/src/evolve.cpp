@@ -77,22 +77,24 @@ class Solver {
   explicit Solver(const EvolveOptions& options)
       : options_(options), threads_(detail::resolve_threads(options.threads)) {}
 
-  Evolution solve(const Grid& grid, const Field& psi, const Field& advance, const Field& factor) {
+  Evolution solve(const Grid& grid, Field psi, const Field& advance, const Field& factor) {
     levels_ = 0;
     for (Grid at = grid; levels_ < options_.coarse_levels && detail::Halving::possible(at);
          ++levels_)
       at = detail::Halving(at).coarse();
-    result_.psi = rest({grid, advance, factor, options_.curvature, 0, 1, {}}, psi);
+    result_.psi = rest({grid, advance, factor, options_.curvature, 0, 1, {}}, std::move(psi));
     result_.seconds = seconds_since(start_);
     return std::move(result_);
   }
 
  private:
   /// ψ at rest, the front moved on coarser grids first.
-  Field rest(const Problem& problem, const Field& psi) {
-    if (problem.level == levels_) return move(problem, psi);
-    Field refined = coarse_start(problem, psi);
-    return move(problem, refined.size() > 0 ? std::move(refined) : psi);
+  Field rest(const Problem& problem, Field psi) {
+    if (problem.level < levels_) {
+      Field refined = coarse_start(problem, psi);
+      if (refined.size() > 0) psi = std::move(refined);
+    }
+    return move(problem, std::move(psi));
   }
 
   /// ψ after the front came to rest on the grid of half the resolution; empty when there is none.
@@ -250,6 +252,12 @@ Field Solver::move(const Problem& problem, Field psi) {
 }
 
 }  // namespace
+
+Evolution evolve(const Grid& grid, Field&& psi, const Field& advance, const Field& factor,
+                 const EvolveOptions& options) {
+  check(grid, psi, advance, factor, options);
+  return Solver(options).solve(grid, std::move(psi), advance, factor);
+}
 
 Evolution evolve(const Grid& grid, const Field& psi, const Field& advance, const Field& factor,
                  const EvolveOptions& options) {

@@ -110,4 +110,9 @@ struct Evolution {
                                                        const Field& advance, const Field& factor,
                                                        const EvolveOptions& options = {});
 
+/// The same, with a start whose memory is given up on the way.
+[[nodiscard]] SHAPE3D_LEVELSET_EXPORT Evolution evolve(const Grid& grid, Field&& psi,
+                                                       const Field& advance, const Field& factor,
+                                                       const EvolveOptions& options = {});
+
 }  // namespace shape3d::levelset
