@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <thread>
 
@@ -182,6 +183,42 @@ TEST_CASE("segment: a region by indices and by millimetres is the same, labels a
   const Volume psi = read_volume(folder / "psi.nrrd");
   CHECK(psi.view.dims == std::array<std::int64_t, 3>{30, 28, 23});
   CHECK((psi.view.origin - one).norm() < 1e-9);
+}
+
+TEST_CASE("segment: nibabel reads the labels at the place of the volume", "[segment]") {
+  const TemporaryFolder folder;
+  make_ball(folder);
+  REQUIRE(run_in(folder, {"segment", "ball.mhd", "-o", "l.nii.gz", "--roi", "3,38,2,35,4,29",
+                          "--classes", "2", "--json", "r.json"})
+              .status == 0);
+  const std::string out = (folder / "nibabel.json").string();
+  const std::string command = std::string("/usr/bin/python3 ") + SHAPE3D_SOURCE_FOLDER +
+                              "/tests/integration/read_written_volume.py " +
+                              (folder / "l.nii.gz").string() + " > " + out;
+  REQUIRE(std::system(command.c_str()) == 0);  // NOLINT(cert-env33-c): names made here
+  const nlohmann::json read = read_json(out);
+  CHECK(read["shape"] == std::vector<int>{40, 36, 30});
+  CHECK(read["type"] == "uint8");
+  // kPlace in LPS; nibabel's affine is in RAS: the first two rows have the other sign.
+  const double expected[3][4] = {{0, 0.9, 0, -12.5}, {-0.7, 0, 0, 30}, {0, 0, -1.2, 700.25}};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column)
+      CHECK(read["affine"][row][column].get<double>() ==
+            Approx(expected[row][column]).margin(1e-4));
+  }
+  // The samples, x fastest, are those of the ball; there are as many as the report says.
+  std::int64_t inside = 0, in_both = 0;
+  for (int k = 0, n = 0; k < 30; ++k) {
+    for (int j = 0; j < 36; ++j) {
+      for (int i = 0; i < 40; ++i, ++n) {
+        const bool label = read["samples"][static_cast<std::size_t>(n)] == 1.0;
+        inside += label ? 1 : 0;
+        in_both += label && true_ball(i, j, k) > 0 ? 1 : 0;
+      }
+    }
+  }
+  CHECK(inside == read_json(folder / "r.json")["segmentation"]["samples"].get<std::int64_t>());
+  CHECK(static_cast<double>(in_both) > 0.97 * static_cast<double>(inside));
 }
 
 TEST_CASE("segment: the component at the seed, and a start from a sphere", "[segment]") {
