@@ -71,7 +71,10 @@ struct SegmentWorker::State {
       return !cancelled;
     };
     Clock::time_point shown = Clock::now();
-    options.evolution.watch_interval = 2;
+    // A whole field is made for each call, which takes its time in large regions.
+    constexpr std::int64_t kLarge = std::int64_t{1} << 20;
+    options.evolution.watch_interval =
+        region.dims[0] * region.dims[1] * region.dims[2] > kLarge ? 8 : 2;
     options.evolution.watch = [&](const levelset::FrontStatistics& at, const levelset::Field& psi) {
       if (cancelled || Clock::now() - shown < kFrame) return;
       update({"evolution", -1.0, make_front(psi, region, wish.lower, at.iteration)});
