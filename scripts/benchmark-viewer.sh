@@ -34,7 +34,7 @@ $table
 - Memory is the resident size, 1.5 s after the surface was drawn. Before anything is open it is that of the libraries (Qt, VTK, and LLVM, which
   the software renderer compiles shaders with) and of the window. The renderer's own copy of the surface,
   which a graphics card would hold, counts as the program's, too.
-  Runs end at one of two sizes, about 275 and 310 MiB (0.92 and 1.03 of the aim); what keeps the
-  larger one has not been found.
+  Runs end at one of two sizes, about 272 and 309 MiB (0.91 and 1.03 of the aim). They differ by 36 MiB, which is as much
+  as a scene of llvmpipe may hold (LP_SCENE_MAX_SIZE): it seems to keep one scene or two, as the last frames were drawn.
 END
 echo "docs/benchmarks/viewer.md" >&2
