@@ -7,6 +7,7 @@
 #include <mutex>
 #include <new>
 #include <thread>
+#include <utility>
 
 #include <QMetaObject>
 
@@ -178,6 +179,11 @@ void Document::remove_mesh(const std::string& path) {
   emit meshes_changed();
 }
 
+void Document::look_at(const std::string& path) {
+  const std::string before = std::exchange(looked_at_, path);
+  if (!before.empty() && before != path) remove_mesh(before);
+}
+
 void Document::set_library(const std::string& path) {
   library_ = path;
   order_.push_back(path);
@@ -191,6 +197,7 @@ void Document::set_collection_map(const std::string& path) {
 }
 
 void Document::close_all() {
+  looked_at_.clear();
   order_.clear();
   meshes_.clear();
   volume_.reset();

@@ -57,6 +57,10 @@ class Document : public QObject {
   void add_mesh(std::shared_ptr<const OpenMesh> mesh);
   /// Closes one mesh; nothing happens when it is not open.
   void remove_mesh(const std::string& path);
+  /// Of the shapes of a collection one after another is looked at: closes the one before, unless
+  /// it is this. The caller opens the file.
+  void look_at(const std::string& path);
+  [[nodiscard]] const std::string& looked_at() const { return looked_at_; }
   void close_all();
   /// A shape library, and the map of a collection: views read them, by their paths. "": none.
   [[nodiscard]] const std::string& library() const { return library_; }
@@ -93,7 +97,7 @@ class Document : public QObject {
   Window window_;
   int loading_ = 0;
   std::vector<std::string> order_;
-  std::string library_, collection_map_;
+  std::string library_, collection_map_, looked_at_;
   std::unique_ptr<Reader> reader_;
 };
 

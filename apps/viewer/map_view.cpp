@@ -20,6 +20,7 @@
 #include "common/model_io.hpp"
 #include "common/text.hpp"
 #include "document.hpp"
+#include "model_text.hpp"
 #include "som_widget.hpp"
 #include "theme.hpp"
 #include "thumbnail_grid.hpp"
@@ -28,12 +29,6 @@ namespace shape3d::apps::viewer {
 namespace {
 
 namespace fs = std::filesystem;
-
-QString text_of(const std::string& words) { return QString::fromStdString(printable(words)); }
-
-QString class_text(const std::optional<std::string>& name) {
-  return name ? text_of(*name) : QString("class not known");
-}
 
 }  // namespace
 
@@ -60,11 +55,9 @@ MapView::MapView(Document& document)
   connect(grid_, &ThumbnailGrid::clicked, this,
           [this](int cell, int /*modifiers*/) { open_shape(static_cast<std::size_t>(cell)); });
   connect(&document_, &Document::collection_changed, this, &MapView::take_collection);
-  connect(&maker_, &ThumbnailMaker::made, this, [this](qint64 key, const QImage& image) {
-    pictures_[key] = image;
-    grid_->refresh();
-    emit busy_changed();
-  });
+  connect(&pictures_, &LibraryPictures::changed, grid_, &ThumbnailGrid::refresh);
+  connect(&pictures_, &LibraryPictures::busy_changed, this, &MapView::busy_changed);
+  connect(&pictures_, &LibraryPictures::failed, this, &MapView::failed);
 }
 
 MapView::~MapView() = default;
@@ -153,7 +146,6 @@ void MapView::take_collection() {
 }
 
 void MapView::take_library() {
-  maker_.clear();
   pictures_.clear();
   shapes_.clear();
   library_.reset();
@@ -236,38 +228,14 @@ void MapView::show_unit() {
 }
 
 void MapView::open_shape(std::size_t shape) {
-  if (shape >= shown_.size()) return;
-  const std::string path = shown_[shape].path;
-  if (!fs::exists(path)) {
-    emit failed(QString::fromStdString(path + ": is not there any more"));
-    return;
-  }
-  const auto& meshes = document_.meshes();
-  const bool is_open = std::any_of(meshes.begin(), meshes.end(),
-                                   [&path](const auto& mesh) { return mesh->path == path; });
-  if (!opened_.empty() && opened_ != path) document_.remove_mesh(opened_);
-  opened_ = path;
-  if (!is_open) emit wants_file(QString::fromStdString(path));
-  emit wants_view("surface");
+  if (shape < shown_.size()) look_at(document_, shown_[shape].path);
 }
 
 QImage MapView::picture(std::int64_t key) {
-  const auto known = pictures_.find(key);
-  if (known != pictures_.end()) return known->second;
-  if (!library_) return {};
-  QImage& image = pictures_[key];
-  try {
-    image = image_of_png(library_->thumbnail(key));
-  } catch (const std::exception& error) {
-    emit failed(QString::fromStdString(error.what()));
-  }
-  if (image.isNull()) {
-    const auto shape = std::find_if(shown_.begin(), shown_.end(),
-                                    [key](const UnitShape& other) { return other.id == key; });
-    if (shape != shown_.end()) maker_.request(key, shape->path);
-    emit busy_changed();
-  }
-  return image;
+  const auto shape = std::find_if(shown_.begin(), shown_.end(),
+                                  [key](const UnitShape& other) { return other.id == key; });
+  if (shape == shown_.end() || !library_) return pictures_.known(key);
+  return pictures_.of(*library_, key, shape->path);
 }
 
 nlohmann::json MapView::state() const {

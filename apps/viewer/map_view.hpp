@@ -1,16 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include <QImage>
-
 #include "common/shape_library.hpp"
+#include "library_pictures.hpp"
 #include "model/collection_map.hpp"
-#include "thumbnail_maker.hpp"
 #include "view.hpp"
 
 class QCheckBox;
@@ -41,7 +38,7 @@ class MapView : public View {
   void reset() override;
   [[nodiscard]] bool takes(const std::string& path) const override;
   void open(const std::string& path) override;
-  [[nodiscard]] bool busy() const override { return maker_.busy(); }
+  [[nodiscard]] bool busy() const override { return pictures_.busy(); }
   [[nodiscard]] std::vector<KeyHelp> keys() const override;
   void set_theme(const Theme& theme) override;
 
@@ -76,9 +73,7 @@ class MapView : public View {
   std::string library_error_;                   // why its shapes are not on the map
   std::vector<std::vector<UnitShape>> shapes_;  // of each unit
   std::vector<UnitShape> shown_;
-  std::map<std::int64_t, QImage> pictures_;
-  ThumbnailMaker maker_;
-  std::string opened_;  // the mesh that a click has opened
+  LibraryPictures pictures_;
 };
 
 }  // namespace shape3d::apps::viewer

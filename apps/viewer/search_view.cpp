@@ -22,6 +22,7 @@
 #include "common/mesh_io.hpp"
 #include "common/text.hpp"
 #include "document.hpp"
+#include "model_text.hpp"
 #include "theme.hpp"
 #include "thumbnail_grid.hpp"
 
@@ -67,15 +68,7 @@ namespace {
 
 constexpr std::int64_t kQueryKey = 0;  // of the picture of a query that the library does not hold
 
-QString text_of(const std::string& words) { return QString::fromStdString(printable(words)); }
-
 QString stem_of(const std::string& path) { return text_of(fs::path(path).stem().string()); }
-
-QString class_of(const std::optional<std::string>& name) {
-  return name ? text_of(*name) : QString("class not known");
-}
-
-QColor to_qt(const Color& color) { return QColor::fromRgbF(color[0], color[1], color[2]); }
 
 }  // namespace
 
@@ -96,12 +89,9 @@ SearchView::SearchView(Document& document)
     if (document_.library() != (library_ ? library_->path() : std::string())) take_library();
   });
   connect(&document_, &Document::meshes_changed, this, &SearchView::take_meshes);
-  connect(&maker_, &ThumbnailMaker::made, this, [this](qint64 key, const QImage& image) {
-    pictures_[key] = image.isNull() ? QImage(1, 1, QImage::Format_RGB888) : image;
-    if (image.isNull()) pictures_[key].fill(Qt::white);
-    grid_->refresh();
-    emit busy_changed();
-  });
+  connect(&pictures_, &LibraryPictures::changed, grid_, &ThumbnailGrid::refresh);
+  connect(&pictures_, &LibraryPictures::busy_changed, this, &SearchView::busy_changed);
+  connect(&pictures_, &LibraryPictures::failed, this, &SearchView::failed);
 }
 
 SearchView::~SearchView() { worker_.reset(); }
@@ -214,7 +204,6 @@ void SearchView::open(const std::string& path) {
 
 void SearchView::close_library() {
   worker_.reset();
-  maker_.clear();
   library_.reset();
   models_.clear();
   row_of_.clear();
@@ -269,7 +258,7 @@ void SearchView::take_meshes() {
   const auto& meshes = document_.meshes();
   const bool more = meshes.size() > meshes_;
   meshes_ = meshes.size();
-  if (!more || !active_ || !library_ || meshes.back()->path == opened_) return;
+  if (!more || !active_ || !library_ || meshes.back()->path == document_.looked_at()) return;
   SearchWish wish = wish_;
   wish.id = 0;
   wish.path = meshes.back()->path;
@@ -280,7 +269,7 @@ void SearchView::fill_models() {
   list_->clear();
   const QString wanted = filter_->text().trimmed();
   for (const LibraryModel& model : models_) {
-    const QString name = stem_of(model.file.path), class_name = class_of(model.class_name);
+    const QString name = stem_of(model.file.path), class_name = class_text(model.class_name);
     if (!name.contains(wanted, Qt::CaseInsensitive) &&
         !class_name.contains(wanted, Qt::CaseInsensitive))
       continue;
@@ -335,17 +324,17 @@ void SearchView::show_result() {
   first.frame = to_qt(kQueryFrame);
   const std::string& path = query.mesh ? query.name : query.model->file.path;
   first.first = stem_of(path);
-  first.second = class_of(query.class_name);
+  first.second = class_text(query.class_name);
   first.third = "query";
   first.tip = text_of(path);
-  if (!query.model) pictures_[kQueryKey] = maker_.draw(*query.mesh);
+  if (!query.model) pictures_.draw(kQueryKey, *query.mesh);
   cells.push_back(first);
   int same = 0;
   for (const Found& found : result_.found) {
     const MatchKind kind = match_kind(query, found.model);
     same += kind == MatchKind::same_class ? 1 : 0;
     cells.push_back({found.model.id, to_qt(frame_color(kind)), stem_of(found.model.file.path),
-                     class_of(found.model.class_name),
+                     class_text(found.model.class_name),
                      "distance " + QString::number(found.match.distance, 'g', 4),
                      text_of(found.model.file.path)});
   }
@@ -377,7 +366,7 @@ void SearchView::show_models() {
   searching_ = false;
   std::vector<ThumbnailCell> cells;
   for (const LibraryModel& model : models_) {
-    cells.push_back({model.id, QColor(), stem_of(model.file.path), class_of(model.class_name), "",
+    cells.push_back({model.id, QColor(), stem_of(model.file.path), class_text(model.class_name), "",
                      text_of(model.file.path)});
   }
   grid_->set_heading(models_.empty() ? "The library holds no shape"
@@ -413,23 +402,7 @@ void SearchView::click(int cell, int modifiers) {
     return;
   }
   const auto row = row_of_.find(key);
-  open_model(row == row_of_.end() ? result_.query.name : models_[row->second].file.path);
-}
-
-void SearchView::open_model(const std::string& path) {
-  if (!fs::exists(path)) {
-    emit failed(QString::fromStdString(
-        path + ": is not there any more; 'shape3d library add' of its new place finds it again"));
-    return;
-  }
-  const auto& meshes = document_.meshes();
-  const bool is_open = std::any_of(meshes.begin(), meshes.end(),
-                                   [&path](const auto& mesh) { return mesh->path == path; });
-  // One match after another is looked at: the one before goes.
-  if (!opened_.empty() && opened_ != path) document_.remove_mesh(opened_);
-  opened_ = path;
-  if (!is_open) emit wants_file(QString::fromStdString(path));
-  emit wants_view("surface");
+  look_at(document_, row == row_of_.end() ? result_.query.name : models_[row->second].file.path);
 }
 
 void SearchView::choose_file() {
@@ -439,21 +412,9 @@ void SearchView::choose_file() {
 }
 
 QImage SearchView::picture(std::int64_t key) {
-  const auto known = pictures_.find(key);
-  if (known != pictures_.end()) return known->second;
   const auto row = row_of_.find(key);
-  if (row == row_of_.end() || !library_) return {};
-  QImage& image = pictures_[key];
-  try {
-    image = image_of_png(library_->thumbnail(key));
-  } catch (const std::exception& error) {
-    emit failed(QString::fromStdString(error.what()));
-  }
-  if (image.isNull()) {
-    maker_.request(key, models_[row->second].file.path);
-    emit busy_changed();
-  }
-  return image;
+  if (row == row_of_.end() || !library_) return pictures_.known(key);
+  return pictures_.of(*library_, key, models_[row->second].file.path);
 }
 
 nlohmann::json SearchView::state() const {
@@ -507,7 +468,7 @@ void SearchView::reset() {
   if (library_) want(SearchWish{}, false);
 }
 
-bool SearchView::busy() const { return searching_ || maker_.busy(); }
+bool SearchView::busy() const { return searching_ || pictures_.busy(); }
 
 std::vector<KeyHelp> SearchView::keys() const {
   return {{"click", "opens a match; where all shapes are shown, finds those like it"},

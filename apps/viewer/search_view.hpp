@@ -5,12 +5,10 @@
 #include <memory>
 #include <string>
 
-#include <QImage>
-
 #include "common/shape_library.hpp"
+#include "library_pictures.hpp"
 #include "model/latest_worker.hpp"
 #include "model/library_search.hpp"
-#include "thumbnail_maker.hpp"
 #include "view.hpp"
 
 class QComboBox;
@@ -65,7 +63,6 @@ class SearchView : public View {
   void show_models();
   void show_controls();
   void click(int cell, int modifiers);
-  void open_model(const std::string& path);
   void choose_file();
   [[nodiscard]] QImage picture(std::int64_t key);
 
@@ -88,10 +85,8 @@ class SearchView : public View {
   SearchWish wish_;
   SearchResult result_;
   bool searching_ = false, active_ = false;
-  std::string opened_;  // the mesh that a click has opened
   std::size_t meshes_ = 0;
-  std::map<std::int64_t, QImage> pictures_;
-  ThumbnailMaker maker_;
+  LibraryPictures pictures_;
 };
 
 }  // namespace shape3d::apps::viewer

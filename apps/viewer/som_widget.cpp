@@ -11,6 +11,7 @@
 #include "common/color_map.hpp"
 #include "common/error.hpp"
 #include "model/collection_map.hpp"
+#include "model_text.hpp"
 #include "theme.hpp"
 
 namespace shape3d::apps::viewer {
@@ -20,8 +21,6 @@ using learning::SomLattice;
 
 constexpr int kMargin = 16, kHead = 34, kFoot = 58;
 const QColor kInk(30, 30, 30), kFaintInk(95, 95, 95);
-
-QColor to_qt(const Color& color) { return QColor::fromRgbF(color[0], color[1], color[2]); }
 
 }  // namespace
 

@@ -65,6 +65,10 @@ class View : public QObject {
   /// The view has come to the front, or gone from it; what is hidden need not be drawn.
   virtual void set_active(bool /*active*/) {}
 
+ protected:
+  /// Opens a shape of a collection in the view of surfaces, in the place of the one before.
+  void look_at(Document& document, const std::string& path);
+
  signals:
   void edited();                         ///< The user changed a parameter: undo can take it back.
   void busy_changed();                   ///< busy() may have changed.
