@@ -75,16 +75,6 @@ vtkSmartPointer<vtkFloatArray> vertex_normals(const MeshView& mesh) {
   return normals;
 }
 
-// Red, green and blue bytes as what VTK colors cells or points by.
-vtkSmartPointer<vtkUnsignedCharArray> color_array(const std::vector<std::uint8_t>& bytes) {
-  auto colors = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  colors->SetName("Colors");
-  colors->SetNumberOfComponents(3);
-  colors->SetNumberOfTuples(static_cast<vtkIdType>(bytes.size() / 3));
-  std::copy(bytes.begin(), bytes.end(), colors->GetPointer(0));
-  return colors;
-}
-
 void set_colors(const SceneMesh& item, vtkPolyData* data, vtkPolyDataMapper* mapper) {
   mapper->SetScalarVisibility(!item.vertex_colors.empty() || !item.triangle_colors.empty());
   mapper->SetColorModeToDirectScalars();

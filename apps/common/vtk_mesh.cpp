@@ -89,6 +89,15 @@ vtkSmartPointer<vtkPolyData> borrow_polydata(const MeshView& mesh) {
   return data;
 }
 
+vtkSmartPointer<vtkUnsignedCharArray> color_array(const std::vector<std::uint8_t>& bytes) {
+  auto colors = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  colors->SetName("Colors");
+  colors->SetNumberOfComponents(3);
+  colors->SetNumberOfTuples(static_cast<vtkIdType>(bytes.size() / 3));
+  std::copy(bytes.begin(), bytes.end(), colors->GetPointer(0));
+  return colors;
+}
+
 void write_polydata(OutputFile& file, vtkPolyData* data) {
   const VtkMessages messages;
   vtkNew<vtkXMLPolyDataWriter> writer;

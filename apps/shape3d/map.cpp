@@ -7,6 +7,7 @@
 #include <shape3d/mapping/spherical_map.hpp>
 
 #include "common/error.hpp"
+#include "common/vertex_normals.hpp"
 #include "mapping_report.hpp"
 #include "mesh_commands.hpp"
 #include "mesh_subject.hpp"

@@ -68,7 +68,4 @@ class PictureOutput {
 [[nodiscard]] Panel triangle_colors_panel(const Mesh& mesh, std::vector<std::uint8_t> colors,
                                           const ColorScale& scale, const std::string& caption);
 
-/// Unit normals at the vertices, by the areas of their triangles.
-[[nodiscard]] Mesh::Points vertex_normals(const Mesh& mesh);
-
 }  // namespace shape3d::apps

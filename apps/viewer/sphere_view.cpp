@@ -24,25 +24,13 @@
 #include <QVBoxLayout>
 #include <nlohmann/json.hpp>
 
+#include "common/vtk_mesh.hpp"
 #include "document.hpp"
 #include "image_widget.hpp"
 #include "model/surface_data.hpp"
 #include "scene_widget.hpp"
 
 namespace shape3d::apps::viewer {
-namespace {
-
-// Bytes as what VTK colours by.
-vtkSmartPointer<vtkUnsignedCharArray> color_array(const std::vector<std::uint8_t>& bytes) {
-  auto colors = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  colors->SetName("Colors");
-  colors->SetNumberOfComponents(3);
-  colors->SetNumberOfTuples(static_cast<vtkIdType>(bytes.size() / 3));
-  std::copy(bytes.begin(), bytes.end(), colors->GetPointer(0));
-  return colors;
-}
-
-}  // namespace
 
 SphereView::SphereView(Document& document)
     : View("sphere", "Sphere map"), document_(document), content_(new QSplitter(Qt::Vertical)) {

@@ -11,20 +11,10 @@
 #include <shape3d/mapping/inspect.hpp>
 #include <shape3d/mapping/spherical_map.hpp>
 
+#include "common/vertex_normals.hpp"
+
 namespace shape3d::apps::viewer {
 namespace {
-
-Mesh::Points vertex_normals(const Mesh& mesh) {
-  Mesh::Points normals = Mesh::Points::Zero(mesh.V.rows(), 3);
-  for (Eigen::Index t = 0; t < mesh.F.rows(); ++t) {
-    const Eigen::Vector3d a = mesh.V.row(mesh.F(t, 0)), b = mesh.V.row(mesh.F(t, 1)),
-                          c = mesh.V.row(mesh.F(t, 2));
-    const Eigen::RowVector3d normal = (b - a).cross(c - a).transpose();
-    for (int corner = 0; corner < 3; ++corner) normals.row(mesh.F(t, corner)) += normal;
-  }
-  for (Eigen::Index v = 0; v < normals.rows(); ++v) normals.row(v).stableNormalize();
-  return normals;
-}
 
 // 127.5 (1 + x) for each coordinate, x within −1 … 1.
 std::vector<std::uint8_t> three_bytes(const Eigen::MatrixXd& values) {

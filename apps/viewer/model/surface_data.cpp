@@ -16,6 +16,7 @@
 #include <Eigen/Geometry>
 
 #include "common/mesh.hpp"
+#include "common/vertex_normals.hpp"
 
 namespace shape3d::apps::viewer {
 namespace {
@@ -133,17 +134,8 @@ vtkSmartPointer<vtkPolyData> mesh_data(const Mesh& mesh) {
   }
   Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>>(
       positions->GetPointer(0), mesh.V.rows(), 3) = mesh.V.cast<float>();
-  Mesh::Points sums = Mesh::Points::Zero(mesh.V.rows(), 3);
-  for (Eigen::Index t = 0; t < mesh.F.rows(); ++t) {
-    const Eigen::Vector3d a = mesh.V.row(mesh.F(t, 0)), b = mesh.V.row(mesh.F(t, 1)),
-                          c = mesh.V.row(mesh.F(t, 2));
-    const Eigen::RowVector3d normal = (b - a).cross(c - a).transpose();
-    for (int corner = 0; corner < 3; ++corner) sums.row(mesh.F(t, corner)) += normal;
-  }
-  for (Eigen::Index v = 0; v < mesh.V.rows(); ++v) {
-    const Eigen::Vector3f normal = sums.row(v).transpose().stableNormalized().cast<float>();
-    std::copy(normal.data(), normal.data() + 3, normals->GetPointer(3 * v));
-  }
+  Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>>(
+      normals->GetPointer(0), mesh.V.rows(), 3) = vertex_normals(mesh).cast<float>();
   vtkNew<vtkPoints> points;
   points->SetData(positions);
   data->SetPoints(points);
